@@ -1,0 +1,48 @@
+// Transport only: channels of bytes over LCM. Knows no message of Fresco's.
+//
+// Threads: Publish may be called from any thread; Subscribe and Poll belong to one thread, on which
+// the handlers run. An exception that leaves a handler is kept while LCM's C code returns and is
+// thrown again by Poll.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace fresco {
+
+/// The message's bytes are valid during the call only.
+using BusHandler = std::function<void(std::span<const std::byte> message)>;
+
+class Bus {
+ public:
+  virtual ~Bus() = default;
+
+  /// Sends one message. Returns false where the transport said that it could not (counted by the
+  /// caller; the network may lose it silently all the same).
+  virtual bool Publish(const std::string& channel, std::span<const std::byte> message) = 0;
+
+  /// Calls `handler` for every message of exactly this channel (the name is escaped: LCM reads
+  /// channels as regular expressions). Throws UsageError where LCM refuses (a firewall that drops
+  /// multicast), saying what to do. Keeps up to `queue_capacity` messages that wait for Poll.
+  virtual void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity = 20000) = 0;
+
+  /// Handles what has arrived, or waits up to `timeout_us` microseconds for the first message; never
+  /// handles more than `maximum_messages`. Returns the number of messages handled. Returns early,
+  /// with 0, where a signal arrives.
+  virtual int Poll(int64_t timeout_us, int maximum_messages = 1000) = 0;
+};
+
+/// The URL used where none is given: this machine only (ttl 0), with a receive buffer of 4 MB.
+inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
+
+/// A bus over LCM: udpm://, tcpq:// or memq:// (private to the one object). A udpm URL without
+/// recv_buf_size gets one of 4 MB, one without ttl gets ttl=0. Throws UsageError where the URL does not parse
+/// or the provider can't start (no multicast route, no tcpq server), naming the URL, the cause and
+/// the command that mends it.
+std::unique_ptr<Bus> OpenLcmBus(const std::string& url);
+
+}  // namespace fresco

@@ -1,0 +1,21 @@
+// A decorator for tests and soak runs: loses, repeats, delays (reorders) and corrupts the messages
+// that pass, by a seeded counter-based stream, so that a disturbance can be had again.
+#pragma once
+
+#include "bus/bus.h"
+
+namespace fresco {
+
+/// Probabilities in [0, 1] for each published message.
+struct LossOptions {
+  double drop = 0;
+  double duplicate = 0;
+  double delay = 0;    ///< held back until 1 to 16 further messages have been published
+  double corrupt = 0;  ///< one bit flipped
+  uint64_t seed = 1;
+};
+
+/// Disturbs what is published through it; subscriptions and polling pass through.
+std::unique_ptr<Bus> MakeLossyBus(Bus& inner, LossOptions options);
+
+}  // namespace fresco

@@ -1,0 +1,49 @@
+# One place for what every target of Fresco is compiled with.
+include_guard(GLOBAL)
+
+add_library(fresco_compile_options INTERFACE)
+target_include_directories(fresco_compile_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(fresco_compile_options INTERFACE
+  -march=${FRESCO_INSTRUCTION_SET}
+  # The same expression must give the same bits wherever it is inlined: the compiler may not
+  # decide by itself which multiplications and additions it fuses. Eigen fuses explicitly.
+  -ffp-contract=off)
+if(FRESCO_SANITIZE)
+  list(JOIN FRESCO_SANITIZE "," fresco_sanitizers)
+  target_compile_options(fresco_compile_options INTERFACE
+    -fsanitize=${fresco_sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(fresco_compile_options INTERFACE -fsanitize=${fresco_sanitizers})
+endif()
+
+add_library(fresco_warnings INTERFACE)
+target_compile_options(fresco_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wold-style-cast -Wcast-qual -Wunused -Wnull-dereference
+  $<$<BOOL:${FRESCO_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# fresco_library(name sources... ): a folder's library, compiled with the common options.
+function(fresco_library name)
+  add_library(${name} STATIC ${ARGN})
+  target_link_libraries(${name} PUBLIC fresco_compile_options PRIVATE fresco_warnings)
+endfunction()
+
+# fresco_executable(name sources...)
+function(fresco_executable name)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE fresco_compile_options fresco_warnings)
+endfunction()
+
+# fresco_test(name LABEL label SOURCES ... LIBRARIES ...): one gtest program, one CTest entry.
+function(fresco_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
+  if(NOT arg_LABEL)
+    set(arg_LABEL unit)
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  fresco_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main)
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+endfunction()

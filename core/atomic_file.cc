@@ -1,0 +1,90 @@
+#include "core/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace fresco {
+namespace {
+
+/// Closes its descriptor; `Fail` throws with the cause that errno names.
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags) : path_(path), fd_(::open(path.c_str(), flags, 0644)) {
+    if (fd_ < 0) {
+      Fail("open");
+    }
+  }
+  ~Descriptor() {
+    if (fd_ >= 0) {
+      ::close(fd_);
+    }
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  void WriteAll(std::string_view content) {
+    while (!content.empty()) {
+      const ssize_t written = ::write(fd_, content.data(), content.size());
+      if (written >= 0) {
+        content.remove_prefix(static_cast<size_t>(written));
+      } else if (errno != EINTR) {
+        Fail("write");
+      }
+    }
+  }
+
+  void Sync() {
+    if (::fsync(fd_) != 0) {
+      Fail("sync");
+    }
+  }
+
+ private:
+  [[noreturn]] void Fail(const char* action) const {
+    throw Failure("can't " + std::string(action) + " " + path_.string() + ": " + std::strerror(errno));
+  }
+
+  std::filesystem::path path_;
+  int fd_;
+};
+
+}  // namespace
+
+void WriteFileAtomically(const std::filesystem::path& path, std::string_view content) {
+  std::filesystem::path temporary = path;
+  temporary += ".tmp" + std::to_string(::getpid());
+  try {
+    {
+      Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
+      file.WriteAll(content);
+      file.Sync();
+    }
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+      throw Failure("can't rename " + temporary.string() + " to " + path.string() + ": " + std::strerror(errno));
+    }
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
+  Descriptor(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC).Sync();
+}
+
+std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream content;
+  if (!stream || std::filesystem::is_directory(path) || !(content << stream.rdbuf() || stream.peek() == EOF)) {
+    throw UsageError("can't read " + path.string() + ": " +
+                     (std::filesystem::is_directory(path) ? "it is a directory" : std::strerror(errno)));
+  }
+  return content.str();
+}
+
+}  // namespace fresco

@@ -1,0 +1,45 @@
+// Counter-based random numbers: a stream is a pure function of its key, so any draw of any episode
+// can be made again anywhere, in any order. No other source of randomness may reach the weights.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace fresco {
+
+/// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC'11): the block
+/// of four 32-bit words at `counter` under `key`.
+std::array<uint32_t, 4> Philox4x32(std::array<uint32_t, 4> counter, std::array<uint32_t, 2> key);
+
+/// What a stream is for; streams of different purposes never share a draw. The values are part of
+/// what makes runs repeatable: append, never renumber.
+enum class RandomPurpose : uint32_t {
+  kActing = 1,          ///< epsilon-greedy choices; indices: order, slot
+  kReplaySampling = 2,  ///< mini-batches; indices: update low, update high
+  kInitialWeights = 3,  ///< indices: layer, 0
+  kSensorPlacement = 4, ///< indices: 0, 0
+  kTest = 5,            ///< tests only
+};
+
+/// The stream of (seed, purpose, first index, second index). Small, copyable; not thread-safe.
+class RandomStream {
+ public:
+  RandomStream(uint64_t seed, RandomPurpose purpose, uint32_t first_index, uint32_t second_index);
+
+  /// Uniform over all 32-bit words.
+  uint32_t NextWord();
+
+  /// Uniform in [0, 1), 53 random bits.
+  double NextUniform();
+
+  /// Uniform in {0, .., bound - 1}, without bias; bound >= 1.
+  uint32_t NextBelow(uint32_t bound);
+
+ private:
+  std::array<uint32_t, 2> key_;
+  std::array<uint32_t, 4> counter_;
+  std::array<uint32_t, 4> block_{};
+  int used_ = 4;
+};
+
+}  // namespace fresco
