@@ -31,7 +31,7 @@ uint32_t RandomStream::NextWord() {
     ++counter_[0];
     used_ = 0;
   }
-  return block_[static_cast<size_t>(used_++)];
+  return block_[static_cast<std::size_t>(used_++)];
 }
 
 double RandomStream::NextUniform() {

@@ -1,4 +1,4 @@
-// The UAV's world as an environment: reset, step, mask. Follows shared choices listed in
+// The UAV's world as an environment: reset, step, mask. Follows the choices listed in
 // docs/paper.md. Deterministic; one instance is used by one thread at a time; no allocation after
 // construction.
 #pragma once
@@ -13,8 +13,8 @@ namespace fresco {
 enum class Outcome : uint8_t {
   kFlying = 0,
   kArrived = 1,      ///< over the stop at slot T with Delta >= 0
-  kOutOfTime = 2,    ///< phi < 0
-  kOutOfEnergy = 3,  ///< Delta < 0
+  kOutOfTime = 2,    ///< phi < 0, whatever Delta is
+  kOutOfEnergy = 3,  ///< Delta < 0 and phi >= 0
 };
 const char* OutcomeName(Outcome outcome);
 
@@ -43,18 +43,26 @@ class Environment {
   Outcome outcome() const { return outcome_; }
 
   /// One slot: the scheduled sensor transmits from o_t, then the UAV moves. CHECKs that the episode
-  /// is not over. The reward is r_t of docs/paper.md.
+  /// is not over. The reward is r_t of docs/paper.md; where one move breaks both constraints, both
+  /// penalties are charged.
   StepResult Step(Action action);
 
   /// mask[a] = 1 where the action of index a is allowed now; `mask` has actions() entries. With no
   /// option every action is allowed. Once the episode is over, all are allowed (no next action).
-  /// From any state from which the stop can be reached at least one action is allowed.
+  /// Where no move is safe (only by flying without the mask), none is left out, so at least one
+  /// action is always allowed.
   void WriteMask(MaskOptions options, std::span<uint8_t> mask) const;
 
   /// Whether the move leads to where the stop can still be reached, and stays on the grid.
   bool IsSafe(Move move) const;
 
  private:
+  void Collect(int schedule);
+  double SlotEnergy(Cell next) const;
+  void UpdateMargins();
+  Outcome PresentOutcome() const;
+  double RewardOfState() const;
+
   const World* world_;
   State state_;
   double remaining_j_ = 0;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "uav/baselines.h"
@@ -10,8 +11,8 @@
 
 namespace fresco {
 
-/// One slot of a flight: the state at its beginning and what was done in it. In the last slot no
-/// decision is made (o_T is the stop): hover, schedule 0.
+/// One slot of a flight: the state at its beginning and what was done in it. In the last one no
+/// decision is made (over the stop at slot T, or the episode has ended early): hover, schedule 0.
 struct FlightSlot {
   State state;
   Action action;
@@ -25,7 +26,7 @@ struct AoiFigures {
 };
 
 struct Flight {
-  std::vector<FlightSlot> slots;  ///< slots 1.. until arrival (T of them) or an early end
+  std::vector<FlightSlot> slots;  ///< from 1 to the terminal state: T of them, or fewer
   Outcome outcome = Outcome::kFlying;
   double residual_energy_j = 0;
   double total_reward = 0;
@@ -38,6 +39,7 @@ class AoiAccumulator {
  public:
   explicit AoiAccumulator(const World& world) : world_(&world) {}
   void Add(std::span<const int16_t> aoi);
+  /// At least one state must have been added.
   AoiFigures Finish() const;
 
  private:

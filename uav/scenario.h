@@ -20,7 +20,7 @@ struct Sensor {
   double weight = 1;  ///< importance; theta_n = weight_n / sum of weights
 };
 
-/// Table I, channel part; converted to linear units by radio.h.
+/// Table I, channel part; converted to linear units by radio.cc.
 struct Radio {
   double bandwidth_hz = 1e6;
   double update_bits = 5e6;
@@ -66,7 +66,7 @@ struct Scenario {
   std::optional<int> maximum_aoi;  ///< delta_max; none: no cap below T
 };
 
-/// `count` sensors of weight 1, uniform over the whole area of the grid (cells reach half a cell
+/// `count` >= 0 sensors of weight 1, uniform over the whole area of the grid (cells reach half a cell
 /// beyond the outermost centres), a pure function of the seed.
 std::vector<Sensor> RandomSensors(int columns, int rows, double cell_m, int count, uint64_t seed);
 

@@ -39,6 +39,7 @@ class World {
   /// and energy) and throws UsageError naming the scenario's field, the value and what is allowed.
   explicit World(Scenario scenario);
 
+  /// As given, but for initial_energy_j: see flying_energy_j().
   const Scenario& scenario() const { return scenario_; }
   int sensors() const { return static_cast<int>(scenario_.sensors.size()); }  ///< N
   int actions() const { return kMoves * (sensors() + 1); }
@@ -48,6 +49,9 @@ class World {
   /// theta_n, summing to one.
   std::span<const double> theta() const { return theta_; }
 
+  /// Energy of a slot. These two and the scenario's initial_energy_j are rounded to multiples of one
+  /// power of two, about 1e-15 of the whole flight's energy: sums and differences of them over a
+  /// flight are exact in double, in any order, so no rounding decides what is within reach.
   double flying_energy_j() const { return flying_energy_j_; }      ///< P(V) tau
   double hovering_energy_j() const { return hovering_energy_j_; }  ///< P(0) tau
 
@@ -65,10 +69,16 @@ class World {
   }
 
   /// action index = move * (N + 1) + schedule.
-  int ActionIndex(Action action) const { return static_cast<int>(action.move) * (sensors() + 1) + action.schedule; }
+  int ActionIndex(Action action) const {
+    return static_cast<int>(action.move) * (sensors() + 1) + action.schedule;
+  }
   Action ActionAt(int index) const;
 
  private:
+  void DeriveEnergies();
+  void DeriveTheta();
+  void DeriveCoverage();
+
   Scenario scenario_;
   std::vector<double> theta_;
   std::vector<uint8_t> coverage_;
@@ -76,14 +86,19 @@ class World {
   double hovering_energy_j_ = 0;
 };
 
-/// Delta_t: the joules that are left after the cheapest completion from `cell` with `slots_left`
-/// moves to make and `remaining_j` joules on board. With P(V) <= P(0) that is flying in every slot
-/// left; otherwise flying the distance and hovering the slack. (Where time_margin < 0 the distance
-/// is not completed; the energy of the slots left is counted all the same.)
+/// Delta_t: the joules that are left after `slots_left` more moves from `cell` with `remaining_j`
+/// joules on board. With P(V) <= P(0) all of them are counted as flown, as in the paper (a bound: an
+/// odd slack takes a hover more, see CompletionEnergy); otherwise the distance is flown and the slack
+/// hovered. (Where time_margin < 0 the distance is not completed, and every slot left is flown.)
 double EnergyMargin(const World& world, Cell cell, int slots_left, double remaining_j);
 
-/// Whether the stop can still be reached from a situation: time, energy, and where hovering is the
-/// dearer and the slack is odd, one hover.
+/// The joules of the cheapest flight from `cell` to the stop in exactly `slots_left` moves, at least
+/// the distance. Where hovering is the dearer, slack is flown to and fro, two slots at a time, so only
+/// an odd slack takes a hover (on a grid of a single cell there is nowhere to fly, and all of it is
+/// hovered); otherwise the slack is hovered.
+double CompletionEnergy(const World& world, Cell cell, int slots_left);
+
+/// Whether the stop can still be reached from a situation: exactly, in time and in energy.
 bool CanReachStop(const World& world, Cell cell, int slots_left, double remaining_j);
 
 /// The network's input: [column/(columns-1), row/(rows-1), delta_n/T.., phi/T, Delta/E_max]; a grid of

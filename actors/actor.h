@@ -1,0 +1,101 @@
+// An actor: finds a run on the bus, holds the networks that its orders name, flies the orders and
+// sends their transitions. Stays when a run is over and serves the next one. Everything happens on
+// the one thread that calls Step.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "actors/flyer.h"
+#include "actors/network_store.h"
+#include "actors/run_announcements.h"
+#include "bus/bus.h"
+#include "msgs/channels.h"
+
+namespace fresco {
+
+struct ActorOptions {
+  int64_t actor_id = 1;        ///< unique among the actors of a bus; never 0
+  int64_t run_id = 0;          ///< serve this run only; 0: any
+  std::optional<int> capacity;  ///< environments; none: as the run's configuration says
+  std::string host;
+  int32_t pid = 0;
+};
+
+struct ActorTotals {
+  int64_t runs = 0;
+  int64_t episodes = 0;
+  int64_t transitions = 0;
+  int64_t resent_episodes = 0;
+  int64_t rejected_messages = 0;  ///< malformed, of another run or configuration, corrupt
+};
+
+class Actor {
+ public:
+  /// Subscribes. `bus` must outlive the actor; it may be shared in a test with other nodes, so
+  /// the caller polls it.
+  Actor(Bus& bus, const Channels& channels, ActorOptions options);
+
+  /// Flies one slot of every open order and sends what is due. Returns whether there is more to fly
+  /// at once; otherwise the caller may wait for the bus.
+  bool Step(int64_t now_us);
+
+  const ActorTotals& totals() const { return totals_; }
+  bool has_run() const { return session_ != nullptr; }
+  /// Whether the run that it last served has ended.
+  bool run_over() const { return run_over_; }
+  std::string Description() const;
+
+ private:
+  /// Everything that belongs to one run.
+  struct Session {
+    Session(Experiment the_experiment, RunIdentity the_identity, int capacity);
+    Experiment experiment;
+    World world;
+    RunIdentity identity;
+    NetworkStore store;
+    Flyer flyer;
+    std::map<int64_t, Order> waiting;    // by index: for networks or room
+    std::map<int64_t, Episode> flown;    // by index, until committed: to be sent again if asked for
+    std::map<int64_t, int32_t> attempts;  // by index: the last one answered
+    int64_t last_heard_us = 0;
+  };
+
+  void HandleRun(const run_t& message);
+  void HandleOrders(const orders_t& message);
+  void HandleWeights(NetworkKind kind, const weights_t& message);
+  void StartSession(const run_t& message, const std::string& text);
+  void TakeOrder(const order_t& wire);
+  void ForgetCommitted(int64_t committed);
+  void StartFlights();
+  void Send(const Episode& episode);
+  void SendStatusIfDue(int64_t now_us);
+  void LeaveSilentRun(int64_t now_us);
+  actor_status_t Status(int64_t now_us);
+  bool IsMine(RunIdentity identity);
+
+  template <class Message, class Handler>
+  void Subscribe(const std::string& channel, Handler handler);
+
+  Bus* bus_;
+  Channels channels_;
+  ActorOptions options_;
+  uint32_t arithmetic_fingerprint_;
+  ActorTotals totals_;
+  RunAnnouncements announcements_;
+  std::unique_ptr<Session> session_;
+  bool run_over_ = false;
+  int64_t refused_run_ = 0;  // a run that this actor can't serve: said once
+  int64_t now_us_ = 0;
+  int64_t next_status_us_ = 0;
+  int64_t next_request_us_ = 0;
+  int64_t rate_since_us_ = 0;
+  int64_t rate_transitions_ = 0;
+  float transitions_per_s_ = 0;
+};
+
+}  // namespace fresco

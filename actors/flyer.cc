@@ -1,0 +1,168 @@
+#include "actors/flyer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/check.h"
+#include "core/random.h"
+
+namespace fresco {
+namespace {
+
+void AppendMask(const std::vector<uint8_t>& mask, std::vector<uint8_t>& packed) {
+  const size_t begin = packed.size();
+  packed.resize(begin + (mask.size() + 7) / 8, 0);
+  for (size_t action = 0; action < mask.size(); ++action) {
+    if (mask[action] != 0) {
+      packed[begin + action / 8] = static_cast<uint8_t>(packed[begin + action / 8] | (1u << (action % 8)));
+    }
+  }
+}
+
+/// The `number`-th allowed action, counted from 0.
+int AllowedAction(const std::vector<uint8_t>& mask, uint32_t number) {
+  for (size_t action = 0; action < mask.size(); ++action) {
+    if (mask[action] != 0 && number-- == 0) {
+      return static_cast<int>(action);
+    }
+  }
+  FRESCO_CHECK(false);
+}
+
+}  // namespace
+
+Flyer::Flight::Flight(const World& world, const Order& flown_order, SharedParameters current_parameters,
+                      SharedParameters target_parameters)
+    : order(flown_order),
+      current(std::move(current_parameters)),
+      target(std::move(target_parameters)),
+      environment(world),
+      mask(static_cast<size_t>(world.actions())) {
+  episode.order_index = order.index;
+}
+
+Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
+    : world_(&world),
+      mlp_(experiment.network_shape()),
+      mask_options_(experiment.mask_options()),
+      double_dqn_(experiment.agent().double_dqn()),
+      discount_(static_cast<float>(experiment.agent().discount())),
+      capacity_(capacity),
+      current_workspace_(mlp_.shape(), capacity),
+      target_workspace_(mlp_.shape(), capacity) {}
+
+bool Flyer::IsFlying(int64_t order_index) const {
+  return std::any_of(flights_.begin(), flights_.end(),
+                     [&](const auto& flight) { return flight->order.index == order_index; });
+}
+
+void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
+  FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
+  auto& flight = flights_.emplace_back(
+      std::make_unique<Flight>(*world_, order, std::move(current), std::move(target)));
+  flight->environment.Reset();
+  flight->environment.WriteMask(mask_options_, flight->mask);
+  flight->episode.states.push_back(flight->environment.state());
+}
+
+void Flyer::Step(const std::function<void(const Episode&)>& finished) {
+  // Flights of the same two versions stand side by side; the order within a group has no influence.
+  std::stable_sort(flights_.begin(), flights_.end(), [](const auto& a, const auto& b) {
+    return std::pair(a->order.current_version, a->order.target_version) <
+           std::pair(b->order.current_version, b->order.target_version);
+  });
+  for (size_t begin = 0; begin < flights_.size();) {
+    group_.clear();
+    const Flight& first = *flights_[begin];
+    for (; begin < flights_.size() && flights_[begin]->current == first.current &&
+           flights_[begin]->target == first.target;
+         ++begin) {
+      group_.push_back(flights_[begin].get());
+    }
+    StepGroup(group_);
+  }
+  for (const auto& flight : flights_) {
+    if (flight->episode.outcome != Outcome::kFlying) {
+      finished(flight->episode);
+    }
+  }
+  std::erase_if(flights_, [](const auto& flight) { return flight->episode.outcome != Outcome::kFlying; });
+}
+
+void Flyer::StepGroup(std::vector<Flight*>& group) {
+  const int batch = static_cast<int>(group.size());
+  const auto forward = [&](const SharedParameters& parameters, MlpWorkspace& workspace) {
+    for (int column = 0; column < batch; ++column) {
+      WriteNetworkInput(*world_, group[static_cast<size_t>(column)]->environment.state(),
+                        {workspace.input().col(column).data(), static_cast<size_t>(world_->inputs())});
+    }
+    mlp_.Forward({parameters->data(), static_cast<size_t>(parameters->size())}, batch, workspace);
+  };
+  forward(group.front()->current, current_workspace_);
+  forward(group.front()->target, target_workspace_);
+  for (int column = 0; column < batch; ++column) {
+    Flight& flight = *group[static_cast<size_t>(column)];
+    FinishLastTransition(flight, column);
+    const int action = ChooseAction(flight, column);
+    Act(flight, action, current_workspace_.output()(action, column));
+  }
+}
+
+void Flyer::FinishLastTransition(Flight& flight, int column) {
+  if (flight.episode.rewards.empty()) {
+    return;
+  }
+  const Matrix& target_values = target_workspace_.output();
+  const Matrix& choosing = double_dqn_ ? current_workspace_.output() : target_values;
+  const float next_value = target_values(GreedyAction(choosing, column, flight.mask), column);
+  flight.episode.td_errors.back() =
+      flight.episode.rewards.back() + discount_ * next_value - flight.chosen_value;
+}
+
+int Flyer::ChooseAction(const Flight& flight, int column) const {
+  const auto slot = static_cast<uint32_t>(flight.environment.state().slot);
+  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(flight.order.index), slot);
+  if (stream.NextUniform() < flight.order.epsilon) {
+    const auto allowed = static_cast<uint32_t>(std::count(flight.mask.begin(), flight.mask.end(), 1));
+    return AllowedAction(flight.mask, stream.NextBelow(allowed));
+  }
+  return GreedyAction(current_workspace_.output(), column, flight.mask);
+}
+
+int Flyer::GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) const {
+  int best = -1;
+  for (int action = 0; action < world_->actions(); ++action) {
+    if (mask[static_cast<size_t>(action)] != 0 && (best < 0 || values(action, column) > values(best, column))) {
+      best = action;
+    }
+  }
+  FRESCO_CHECK(best >= 0);
+  return best;
+}
+
+void Flyer::Act(Flight& flight, int action, float value) {
+  const StepResult result = flight.environment.Step(world_->ActionAt(action));
+  flight.chosen_value = value;
+  Episode& episode = flight.episode;
+  episode.actions.push_back(static_cast<int16_t>(action));
+  episode.rewards.push_back(static_cast<float>(result.reward));
+  episode.td_errors.push_back(episode.rewards.back() - value);  // final where the episode ends here
+  episode.states.push_back(flight.environment.state());
+  episode.outcome = result.outcome;
+  flight.environment.WriteMask(mask_options_, flight.mask);
+  AppendMask(flight.mask, episode.next_masks);
+}
+
+Episode FlyGreedily(const World& world, const Experiment& experiment, SharedParameters parameters) {
+  Flyer flyer(world, experiment, 1);
+  Order order;
+  order.kind = OrderKind::kEvaluate;
+  flyer.Start(order, parameters, parameters);
+  Episode flown;
+  while (!flyer.Idle()) {
+    flyer.Step([&](const Episode& episode) { flown = episode; });
+  }
+  return flown;
+}
+
+}  // namespace fresco

@@ -1,0 +1,103 @@
+// fresco-actor: one actor process. Needs nothing but an LCM URL; see actors/actor.h.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <random>
+
+#include "actors/actor.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/stop_signal.h"
+#include "core/version.h"
+#include "msgs/settings.h"
+
+namespace fresco {
+namespace {
+
+struct Arguments {
+  std::string lcm_url = kDefaultLcmUrl;
+  std::string channel_prefix = kDefaultChannelPrefix;
+  std::string run_id;
+  int environments = 0;
+  bool once = false;
+};
+
+std::string HostName() {
+  char name[64] = "unknown";
+  static_cast<void>(gethostname(name, sizeof name - 1));
+  return name;
+}
+
+/// Names this process among the actors; has no influence on what it flies.
+int64_t DrawActorId() {
+  std::random_device device;
+  return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
+}
+
+ActorOptions OptionsFrom(const Arguments& arguments) {
+  ActorOptions options;
+  options.actor_id = DrawActorId();
+  options.host = HostName();
+  options.pid = static_cast<int32_t>(getpid());
+  if (!arguments.run_id.empty()) {
+    options.run_id = ParseRunId(arguments.run_id);
+  }
+  if (arguments.environments > 0) {
+    options.capacity = arguments.environments;
+  }
+  return options;
+}
+
+void Serve(const Arguments& arguments) {
+  constexpr int64_t kWaitUs = 2'000;
+  const std::unique_ptr<Bus> bus = OpenLcmBus(arguments.lcm_url);
+  Actor actor(*bus, ChannelsWithPrefix(arguments.channel_prefix), OptionsFrom(arguments));
+  spdlog::info("waiting for a run on {}", arguments.lcm_url);
+  while (!StopSignal::Requested() && !(arguments.once && actor.run_over())) {
+    const bool busy = actor.Step(MonotonicMicroseconds());
+    bus->Poll(busy ? 0 : kWaitUs);
+  }
+  spdlog::info("{}", actor.Description());
+}
+
+int Main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Flies episodes for Fresco's learner: waits on the bus for a run, serves it, waits for the next.");
+  app.set_version_flag("--version", kSoftwareVersion);
+  app.add_option("--lcm-url", arguments.lcm_url, "Where the learner is")->capture_default_str();
+  app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
+      ->capture_default_str();
+  app.add_option("--run-id", arguments.run_id, "Serve this run only (16 hexadecimal digits)");
+  app.add_option("--environments", arguments.environments, "Episodes flown side by side; 0: as the run says")
+      ->check(CLI::Range(0, 4096));
+  app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
+  }
+  Serve(arguments);
+  return 0;
+}
+
+}  // namespace
+}  // namespace fresco
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_logger_st("fresco-actor"));
+  spdlog::set_pattern("%H:%M:%S %n[%P] %l: %v");
+  fresco::StopSignal::Install();
+  try {
+    return fresco::Main(argc, argv);
+  } catch (const fresco::Error& error) {
+    spdlog::error("{}", error.what());
+    return error.exit_status();
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return 1;
+  }
+}

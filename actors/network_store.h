@@ -1,0 +1,70 @@
+// The network versions that an actor holds or is assembling from chunks. A version is handed out
+// only when every chunk is there and the CRC of the whole holds, so nobody ever acts with a mixed or
+// corrupt network. Memory is bounded. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "msgs/weights_codec.h"
+#include "nn/mlp.h"
+
+namespace fresco {
+
+/// One version of one of the two networks.
+using NetworkVersion = std::pair<NetworkKind, int32_t>;
+
+class NetworkStore {
+ public:
+  /// For networks of `parameters` values.
+  explicit NetworkStore(int64_t parameters) : parameters_(parameters) {}
+
+  enum class Arrival {
+    kAccepted,   ///< a new chunk
+    kDuplicate,  ///< a chunk that is there
+    kCompleted,  ///< the last missing chunk, and the CRC holds
+    kRejected,   ///< contradicts the network's size or the version's CRC
+  };
+
+  /// Takes a chunk that arrived at `now_us` (monotonic).
+  Arrival Add(NetworkKind kind, const weights_t& message, int64_t now_us);
+
+  /// The parameters of a complete version; null where it is not (yet) complete.
+  std::shared_ptr<const Vector> Find(NetworkVersion version) const;
+
+  /// Names the versions that orders need: others are forgotten as room is needed, and of these the
+  /// missing chunks are reported.
+  void SetWanted(std::set<NetworkVersion> wanted) { wanted_ = std::move(wanted); }
+
+  /// Ranges of missing chunks of wanted versions of which nothing has arrived for `quiet_us`; at most
+  /// kMaximumMissingRanges.
+  std::vector<chunk_range_t> MissingRanges(int64_t now_us, int64_t quiet_us);
+
+  /// Complete versions, at most kMaximumHeldVersions, as {kind, version, 0, chunks}.
+  std::vector<chunk_range_t> HeldVersions() const;
+
+ private:
+  struct Assembly {
+    std::shared_ptr<Vector> values;
+    std::vector<uint8_t> received;  // by chunk
+    int missing_chunks = 0;
+    int64_t crc32c = 0;
+    int64_t last_arrival_us = 0;
+    bool complete() const { return missing_chunks == 0; }
+  };
+
+  Assembly& Open(NetworkVersion version, int64_t crc32c, int64_t now_us);
+  void MakeRoom();
+  void AppendMissing(NetworkVersion version, const Assembly& assembly, std::vector<chunk_range_t>& ranges) const;
+
+  int64_t parameters_;
+  std::map<NetworkVersion, Assembly> versions_;
+  std::map<NetworkVersion, int64_t> asked_us_;  // wanted versions of which nothing is here: since when
+  std::set<NetworkVersion> wanted_;
+};
+
+}  // namespace fresco

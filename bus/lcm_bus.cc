@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+#include <lcm/lcm.h>
+#include <poll.h>
+
+#include <cerrno>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+#include "bus/bus.h"
+#include "bus/lcm_url.h"
+#include "core/error.h"
+
+namespace fresco {
+namespace {
+
+/// LCM reads channel names as regular expressions: escapes what is special in one.
+std::string EscapeChannel(const std::string& channel) {
+  std::string escaped;
+  for (const char c : channel) {
+    if (std::string_view(".^$|()[]{}*+?\\").find(c) != std::string_view::npos) {
+      escaped += '\\';
+    }
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string Remedy(const std::string& url) {
+  if (url.starts_with("tcpq")) {
+    return "no LCM TCP server answers there; start one with: java -cp /usr/share/java/lcm.jar lcm.lcm.TCPService PORT";
+  }
+  return "most likely no route covers multicast; as root: ip route add 224.0.0.0/4 dev lo (as another user: "
+         "unshare -Urn, then the same inside, after ip link set lo up), or the port is taken by another program";
+}
+
+class LcmBus : public Bus {
+ public:
+  explicit LcmBus(const std::string& url) : url_(NormalizeLcmUrl(url)), lcm_(lcm_create(url_.c_str())) {
+    // With tcpq LCM reports success although nobody answers; there is no descriptor then.
+    if (lcm_ == nullptr || lcm_get_fileno(lcm_) < 0) {
+      const std::string message = fmt::format("can't open the LCM URL {}: {}", url_, Remedy(url_));
+      if (lcm_ != nullptr) {
+        lcm_destroy(lcm_);
+      }
+      throw UsageError(message);
+    }
+  }
+
+  ~LcmBus() override { lcm_destroy(lcm_); }
+  LcmBus(const LcmBus&) = delete;
+  LcmBus& operator=(const LcmBus&) = delete;
+
+  bool Publish(const std::string& channel, std::span<const std::byte> message) override {
+    const std::lock_guard lock(publish_mutex_);  // LCM's tcpq provider is not thread-safe here
+    return lcm_publish(lcm_, channel.c_str(), message.data(), static_cast<unsigned>(message.size())) == 0;
+  }
+
+  void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
+    Subscription& subscription = subscriptions_.emplace_back(Subscription{this, std::move(handler)});
+    lcm_subscription_t* raw = lcm_subscribe(lcm_, EscapeChannel(channel).c_str(), &LcmBus::Dispatch, &subscription);
+    if (raw == nullptr) {
+      throw UsageError(fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
+                                   "may drop them (allow UDP to 224.0.0.0/4), or {}",
+                                   channel, url_, Remedy(url_)));
+    }
+    lcm_subscription_set_queue_capacity(raw, queue_capacity);
+  }
+
+  int Poll(int64_t timeout_us, int maximum_messages) override {
+    int handled = 0;
+    while (handled < maximum_messages && WaitReadable(handled == 0 ? timeout_us : 0)) {
+      if (lcm_handle(lcm_) != 0) {
+        throw Failure("the connection of " + url_ + " was lost");
+      }
+      ++handled;
+      if (exception_) {
+        std::rethrow_exception(std::exchange(exception_, nullptr));
+      }
+    }
+    return handled;
+  }
+
+ private:
+  struct Subscription {
+    LcmBus* bus;
+    BusHandler handler;
+  };
+
+  static void Dispatch(const lcm_recv_buf_t* buffer, const char*, void* user) {
+    auto* subscription = static_cast<Subscription*>(user);
+    try {
+      subscription->handler({static_cast<const std::byte*>(buffer->data), buffer->data_size});
+    } catch (...) {
+      subscription->bus->exception_ = std::current_exception();
+    }
+  }
+
+  bool WaitReadable(int64_t timeout_us) const {
+    constexpr int64_t kMicrosecondsPerSecond = 1'000'000;
+    pollfd descriptor{lcm_get_fileno(lcm_), POLLIN, 0};
+    if (descriptor.fd < 0) {
+      throw Failure("the connection of " + url_ + " was lost");
+    }
+    const int64_t wait_us = timeout_us > 0 ? timeout_us : 0;
+    const timespec timeout{wait_us / kMicrosecondsPerSecond, wait_us % kMicrosecondsPerSecond * 1000};
+    return ppoll(&descriptor, 1, &timeout, nullptr) > 0;
+  }
+
+  std::string url_;
+  lcm_t* lcm_;
+  std::mutex publish_mutex_;
+  std::deque<Subscription> subscriptions_;  // stable addresses: LCM holds them
+  std::exception_ptr exception_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bus> OpenLcmBus(const std::string& url) {
+  return std::make_unique<LcmBus>(url);
+}
+
+}  // namespace fresco

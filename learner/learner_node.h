@@ -1,0 +1,118 @@
+// The learner's side of the bus, between the trainer and the actors: announces the run, hands out
+// orders, collects transitions into the ledger, sends networks in paced chunks, reports status.
+//
+// Threads: Step belongs to one network thread, which never trains; every other function may be
+// called from the training thread at the same time. One mutex guards the shared state; it is never
+// held while sending.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "learner/ledger.h"
+#include "learner/roster.h"
+#include "learner/trainer.h"
+#include "learner/weight_publisher.h"
+#include "msgs/channels.h"
+
+namespace fresco {
+
+/// What happened to messages, for summary.json's `bus` and the status.
+struct BusCounters {
+  int64_t received = 0;            ///< messages of this run
+  int64_t lost = 0;                ///< orders whose result had to be asked for again
+  int64_t duplicate = 0;           ///< transitions messages that brought nothing new
+  int64_t rejected = 0;            ///< sum of the causes below
+  int64_t rejected_malformed = 0;  ///< does not decode, or values out of range
+  int64_t rejected_foreign = 0;    ///< another run, another configuration, an order never written
+  int64_t rejected_inconsistent = 0;  ///< an episode that does not follow from its actions
+  int64_t rejected_arithmetic = 0;    ///< statuses of actors whose arithmetic differs
+  int64_t reordered_episodes = 0;     ///< complete before an earlier one
+};
+
+class LearnerNode {
+ public:
+  /// Subscribes on `bus`, which must outlive the node, as must `world`.
+  LearnerNode(const Experiment& experiment, const World& world, int64_t run_id, Bus& bus, const Channels& channels);
+
+  // ---- The training thread's side.
+  void WriteOrder(const Order& order);
+  void OfferVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
+  void SetProgress(const TrainerProgress& progress, const std::optional<Evaluation>& last,
+                   const std::optional<BestNetwork>& best);
+  /// Waits up to `timeout_us` for the next episode by index.
+  std::optional<CommittedEpisode> WaitForNext(int64_t timeout_us);
+
+  // ---- The network thread's side.
+  /// Handles what has arrived, waiting at most a fraction of a millisecond, and sends what is due.
+  void Step();
+  /// Announces, a few times, that the run is over.
+  void AnnounceEnd();
+
+  // ---- Any thread.
+  BusCounters counters() const;
+  std::string WaitingFor() const;
+  /// Set as soon as another run's learner was heard on the same channels.
+  int64_t foreign_run() const;
+
+ private:
+  void HandleTransitions(const transitions_t& message);
+  void HandleStatus(const actor_status_t& message);
+  void HandleRun(const run_t& message);
+  bool IsOurs(RunIdentity identity);
+  void Reject(int64_t BusCounters::*cause);
+
+  void SendRunIfDue(int64_t now_us);
+  void SendRun(bool finished);
+  void SendOrders(int64_t now_us);
+  void SendWeights(int64_t now_us);
+  void SendStatusIfDue(int64_t now_us);
+  learner_status_t Status(int64_t now_us);
+  std::string WaitingForLocked(int64_t now_us) const;
+
+  template <class Message>
+  void Publish(const std::string& channel, Message message);
+  template <class Message, class Handler>
+  void Subscribe(const std::string& channel, Handler handler);
+
+  const World* world_;
+  Bus* bus_;
+  Channels channels_;
+  RunIdentity identity_;
+  run_t announcement_{};
+  std::string config_text_;
+  int total_episodes_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable next_is_complete_;
+  Ledger ledger_;
+  Roster roster_;
+  WeightPublisher publisher_;
+  BusCounters counters_;
+  TrainerProgress progress_;
+  std::optional<Evaluation> last_evaluation_;
+  std::optional<Evaluation> best_evaluation_;
+  bool trainer_waits_ = false;
+  int64_t foreign_run_ = 0;
+
+  // The network thread's own.
+  std::vector<std::byte> bytes_;
+  Episode run_;
+  int64_t next_run_us_ = 0;
+  int64_t next_orders_us_ = 0;
+  int64_t next_status_us_ = 0;
+  int64_t next_burst_us_ = 0;
+  bool run_was_asked_for_ = false;
+  int64_t rate_since_us_ = 0;
+  TrainerProgress rate_from_;
+  double transitions_per_s_ = 0;
+  double updates_per_s_ = 0;
+};
+
+}  // namespace fresco

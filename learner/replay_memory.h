@@ -1,0 +1,66 @@
+// The replay memory D of Algorithm 1: a ring of the latest transitions, as the network sees them.
+// Not thread-safe. No allocation after construction.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/random.h"
+#include "nn/mlp.h"
+
+namespace fresco {
+
+/// A mini-batch, one transition a column or entry.
+struct MiniBatch {
+  MiniBatch(int inputs, int actions, int batch_size);
+
+  int size() const { return static_cast<int>(actions.size()); }
+
+  Matrix observations;               ///< [inputs x batch]
+  Matrix next_observations;          ///< [inputs x batch]
+  std::vector<int16_t> actions;
+  std::vector<float> rewards;
+  std::vector<uint8_t> terminal;     ///< 1: no next state
+  Matrix next_penalty;               ///< [actions x batch]: 0 where allowed in s', -infinity where not
+};
+
+/// One transition, for inserting.
+struct Transition {
+  std::span<const float> observation;
+  std::span<const float> next_observation;
+  int16_t action = 0;
+  float reward = 0;
+  bool terminal = false;
+  std::span<const uint8_t> next_mask;  ///< packed bits
+};
+
+class ReplayMemory {
+ public:
+  ReplayMemory(int inputs, int actions, int64_t capacity);
+
+  void Insert(const Transition& transition);
+
+  /// Transitions held, at most the capacity.
+  int64_t size() const { return size_; }
+
+  /// Fills the batch with transitions drawn uniformly, with replacement. CHECKs that there is one.
+  void Sample(RandomStream& stream, MiniBatch& batch) const;
+
+ private:
+  void Copy(int64_t place, int column, MiniBatch& batch) const;
+
+  int actions_;
+  int64_t capacity_;
+  int64_t size_ = 0;
+  int64_t next_ = 0;
+  Matrix observations_;
+  Matrix next_observations_;
+  std::vector<int16_t> action_;
+  std::vector<float> reward_;
+  std::vector<uint8_t> terminal_;
+  size_t mask_size_;
+  std::vector<uint8_t> masks_;
+};
+
+}  // namespace fresco

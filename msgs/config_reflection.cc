@@ -1,0 +1,180 @@
+#include "msgs/config_reflection.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+
+#include <charconv>
+
+#include "core/error.h"
+#include "msgs/proto/options.pb.h"
+
+namespace fresco {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+bool IsMessage(const FieldDescriptor& field) {
+  return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+}
+
+std::string JoinPath(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+void FillScalar(Message& message, const FieldDescriptor& field) {
+  const Reflection& reflection = *message.GetReflection();
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_INT32: return reflection.SetInt32(&message, &field, field.default_value_int32());
+    case FieldDescriptor::CPPTYPE_INT64: return reflection.SetInt64(&message, &field, field.default_value_int64());
+    case FieldDescriptor::CPPTYPE_UINT64:
+      return reflection.SetUInt64(&message, &field, field.default_value_uint64());
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return reflection.SetDouble(&message, &field, field.default_value_double());
+    case FieldDescriptor::CPPTYPE_BOOL: return reflection.SetBool(&message, &field, field.default_value_bool());
+    case FieldDescriptor::CPPTYPE_ENUM: return reflection.SetEnum(&message, &field, field.default_value_enum());
+    case FieldDescriptor::CPPTYPE_STRING:
+      return reflection.SetString(&message, &field, field.default_value_string());
+    default: return;
+  }
+}
+
+/// The value of a numeric field as the double that ranges are stated in; `index` -1: not repeated.
+double NumericValue(const Message& message, const FieldDescriptor& field, int index) {
+  const Reflection& reflection = *message.GetReflection();
+  const bool repeated = index >= 0;
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_INT32:
+      return repeated ? reflection.GetRepeatedInt32(message, &field, index) : reflection.GetInt32(message, &field);
+    case FieldDescriptor::CPPTYPE_INT64:
+      return static_cast<double>(repeated ? reflection.GetRepeatedInt64(message, &field, index)
+                                          : reflection.GetInt64(message, &field));
+    default:
+      return repeated ? reflection.GetRepeatedDouble(message, &field, index) : reflection.GetDouble(message, &field);
+  }
+}
+
+void CheckRange(const Message& message, const FieldDescriptor& field, int index, const std::string& origin,
+                const std::string& path) {
+  const proto::Range& range = field.options().GetExtension(proto::range);
+  const double value = NumericValue(message, field, index);
+  if (!(value >= range.minimum() && value <= range.maximum())) {
+    throw UsageError(fmt::format("{}: {}: {} is out of range; allowed: {} to {}", origin, path, value,
+                                 range.minimum(), range.maximum()));
+  }
+}
+
+/// A path's first part: name, and index where it says name[index].
+struct PathPart {
+  std::string name;
+  int index = -1;
+};
+
+PathPart ParsePathPart(const std::string& text, const std::string& path) {
+  const size_t bracket = text.find('[');
+  if (bracket == std::string::npos) {
+    return {text, -1};
+  }
+  PathPart part{text.substr(0, bracket), -1};
+  const char* end = text.data() + text.size() - 1;
+  const auto [parsed, error] = std::from_chars(text.data() + bracket + 1, end, part.index);
+  if (text.back() != ']' || error != std::errc() || parsed != end || part.index < 0) {
+    throw UsageError(fmt::format("--set {}: expected name[index], found \"{}\"", path, text));
+  }
+  return part;
+}
+
+[[noreturn]] void ThrowUnknownField(const Descriptor& descriptor, const std::string& name, const std::string& path) {
+  std::string known;
+  for (int i = 0; i < descriptor.field_count(); ++i) {
+    known += (i == 0 ? "" : ", ") + descriptor.field(i)->name();
+  }
+  throw UsageError(fmt::format("--set {}: there is no field \"{}\"; {} has: {}", path, name, descriptor.name(), known));
+}
+
+void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& path, const std::string& value) {
+  const bool quoted = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !value.starts_with('"');
+  message.GetReflection()->ClearField(&message, &field);
+  const std::string text = field.is_repeated() ? "[" + value + "]" : quoted ? "\"" + value + "\"" : value;
+  google::protobuf::TextFormat::Parser parser;
+  struct Silent : google::protobuf::io::ErrorCollector {
+    void AddError(int, int, const std::string& error) override { text = error; }
+    std::string text;
+  } errors;
+  parser.RecordErrorsTo(&errors);
+  if (IsMessage(field) || !parser.MergeFromString(field.name() + ": " + text, &message)) {
+    throw UsageError(fmt::format("--set {}: \"{}\" is not a value of this field ({}){}", path, value,
+                                 field.cpp_type_name(), errors.text.empty() ? "" : ": " + errors.text));
+  }
+}
+
+void SetFieldBelow(Message& message, const std::string& rest, const std::string& path, const std::string& value) {
+  const size_t dot = rest.find('.');
+  const PathPart part = ParsePathPart(rest.substr(0, dot), path);
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(part.name);
+  if (field == nullptr) {
+    ThrowUnknownField(*message.GetDescriptor(), part.name, path);
+  }
+  if (dot == std::string::npos) {
+    return SetLeaf(message, *field, path, value);
+  }
+  const Reflection& reflection = *message.GetReflection();
+  if (!IsMessage(*field) || field->is_repeated() != (part.index >= 0) ||
+      (field->is_repeated() && part.index >= reflection.FieldSize(message, field))) {
+    throw UsageError(fmt::format("--set {}: \"{}\" has no parts, or no such index", path, rest.substr(0, dot)));
+  }
+  Message* below = field->is_repeated() ? reflection.MutableRepeatedMessage(&message, field, part.index)
+                                        : reflection.MutableMessage(&message, field);
+  SetFieldBelow(*below, rest.substr(dot + 1), path, value);
+}
+
+}  // namespace
+
+void FillDefaults(Message& message) {
+  const Descriptor& descriptor = *message.GetDescriptor();
+  const Reflection& reflection = *message.GetReflection();
+  for (int i = 0; i < descriptor.field_count(); ++i) {
+    const FieldDescriptor& field = *descriptor.field(i);
+    if (field.is_repeated()) {
+      for (int j = 0; IsMessage(field) && j < reflection.FieldSize(message, &field); ++j) {
+        FillDefaults(*reflection.MutableRepeatedMessage(&message, &field, j));
+      }
+    } else if (IsMessage(field)) {
+      if (reflection.HasField(message, &field)) {
+        FillDefaults(*reflection.MutableMessage(&message, &field));
+      }
+    } else if (field.has_default_value() && !reflection.HasField(message, &field)) {
+      FillScalar(message, field);
+    }
+  }
+}
+
+void CheckRanges(const Message& message, const std::string& origin, const std::string& path) {
+  const Reflection& reflection = *message.GetReflection();
+  std::vector<const FieldDescriptor*> fields;
+  reflection.ListFields(message, &fields);
+  for (const FieldDescriptor* field : fields) {
+    const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+    for (int i = 0; i < count; ++i) {
+      const int index = field->is_repeated() ? i : -1;
+      const std::string name = field->name() + (index >= 0 ? fmt::format("[{}]", index) : "");
+      if (IsMessage(*field)) {
+        CheckRanges(index >= 0 ? reflection.GetRepeatedMessage(message, field, index)
+                               : reflection.GetMessage(message, field),
+                    origin, JoinPath(path, name));
+      } else if (field->options().HasExtension(proto::range)) {
+        CheckRange(message, *field, index, origin, JoinPath(path, name));
+      }
+    }
+  }
+}
+
+void SetField(Message& message, const std::string& path, const std::string& value) {
+  SetFieldBelow(message, path, path, value);
+}
+
+}  // namespace fresco

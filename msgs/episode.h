@@ -1,0 +1,44 @@
+// A flown episode, or a run of consecutive transitions of one, in memory; and its way over the wire
+// in messages that each fit one Ethernet frame. Pure; an object belongs to one thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "msgs/wire.h"
+#include "uav/world.h"
+#include "uav/environment.h"
+
+namespace fresco {
+
+/// Transition i goes from states[i] to states[i + 1].
+struct Episode {
+  int64_t order_index = 0;
+  int32_t first_transition = 0;  ///< 0 for a whole episode
+  Outcome outcome = Outcome::kFlying;  ///< other than kFlying: the last transition is terminal
+  std::vector<State> states;           ///< transitions + 1
+  std::vector<int16_t> actions;
+  std::vector<float> rewards;
+  std::vector<float> td_errors;
+  std::vector<uint8_t> next_masks;  ///< mask_size bytes a transition, bit a % 8 of byte a / 8
+
+  int transitions() const { return static_cast<int>(actions.size()); }
+  void Clear();
+};
+
+/// Bytes of one mask over the world's actions.
+inline int MaskSize(const World& world) { return (world.actions() + 7) / 8; }
+
+/// Transitions that fit one message for this many sensors; at least 1 for up to kMaximumSensors.
+int TransitionsPerMessage(int sensors);
+
+/// Splits a whole episode into messages in their order and calls `send` with each encoded one.
+void SendEpisode(const World& world, const Episode& episode, RunIdentity identity, int64_t actor_id,
+                 const std::function<void(std::span<const std::byte>)>& send);
+
+/// A message's run of transitions, checked against the world: sizes, actions, cells, AoI, finite
+/// values. Returns false where anything is off.
+bool ToEpisodeRun(const World& world, const transitions_t& message, Episode& run);
+
+}  // namespace fresco

@@ -1,0 +1,51 @@
+// An experiment: a configuration that was read, completed with the paper's values and checked.
+// Everything else may rely on its ranges. Immutable after construction; thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "msgs/proto/experiment.pb.h"
+#include "nn/mlp.h"
+#include "uav/environment.h"
+#include "uav/scenario.h"
+
+namespace fresco {
+
+/// path=value settings, in order: {"schedule.seed", "3"}.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+class Experiment {
+ public:
+  /// Parses text format, applies the settings, fills in defaults and checks everything. `origin`
+  /// names the source in errors: a file, or "the run's configuration". Throws UsageError naming
+  /// origin, field, value and what is allowed.
+  static Experiment Parse(const std::string& text, const std::string& origin, const Settings& settings = {});
+  static Experiment Load(const std::string& path, const Settings& settings = {});
+
+  const proto::ExperimentConfig& config() const { return config_; }
+  const proto::Agent& agent() const { return config_.agent(); }
+  const proto::Schedule& schedule() const { return config_.schedule(); }
+  const proto::Run& run() const { return config_.run(); }
+  const Scenario& scenario() const { return scenario_; }
+
+  /// The network of this experiment: inputs N + 4, outputs 5 (N + 1).
+  MlpShape network_shape() const;
+  MaskOptions mask_options() const;
+
+  /// The complete configuration in text format.
+  std::string Text() const;
+  /// What decides the weights (scenario, agent, schedule), in text format.
+  std::string CanonicalText() const;
+  /// CRC-32C of CanonicalText(); never 0.
+  uint32_t hash() const { return hash_; }
+
+ private:
+  proto::ExperimentConfig config_;
+  Scenario scenario_;
+  uint32_t hash_ = 0;
+};
+
+}  // namespace fresco

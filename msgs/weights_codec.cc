@@ -1,0 +1,36 @@
+#include "msgs/weights_codec.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+
+namespace fresco {
+
+int ChunkCount(int64_t parameters) {
+  return static_cast<int>((parameters + kValuesPerChunk - 1) / kValuesPerChunk);
+}
+
+weights_t WeightsChunk(std::span<const float> values, uint32_t crc32c, int32_t version, int chunk) {
+  const size_t offset = static_cast<size_t>(chunk) * kValuesPerChunk;
+  FRESCO_CHECK(chunk >= 0 && offset < values.size());
+  const auto part = values.subspan(offset, std::min<size_t>(kValuesPerChunk, values.size() - offset));
+  weights_t message{};
+  message.value_count = static_cast<int32_t>(part.size());
+  message.version = version;
+  message.offset = static_cast<int32_t>(offset);
+  message.total_values = static_cast<int32_t>(values.size());
+  message.crc32c = crc32c;
+  message.values.assign(part.begin(), part.end());
+  return message;
+}
+
+int ChunkIndex(const weights_t& message, int64_t parameters) {
+  if (message.total_values != parameters || message.version < 0 || message.offset < 0 ||
+      message.offset % kValuesPerChunk != 0 || message.offset >= parameters ||
+      message.value_count != std::min<int64_t>(kValuesPerChunk, parameters - message.offset)) {
+    return -1;
+  }
+  return message.offset / kValuesPerChunk;
+}
+
+}  // namespace fresco

@@ -1,0 +1,115 @@
+// From LCM's generated types to bytes and back, guarded: generated decoders trust counts, so every
+// count is looked at before they run. All counts of a message stand first after its identity
+// (utime, run_id, config_hash), which is what makes the look possible. Thread-safe.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "fresco/actor_status_t.hpp"
+#include "fresco/learner_status_t.hpp"
+#include "fresco/orders_t.hpp"
+#include "fresco/run_t.hpp"
+#include "fresco/transitions_t.hpp"
+#include "fresco/weights_t.hpp"
+
+namespace fresco {
+
+/// Raised with every change to a .lcm file.
+inline constexpr int32_t kProtocolVersion = 1;
+
+/// Every message fits one Ethernet frame: LCM loses a whole message with one lost fragment.
+inline constexpr size_t kMaximumMessageBytes = 1350;
+/// Kept free in every message for a trailer (message authentication); LCM's decoders ignore it.
+inline constexpr size_t kReservedTrailerBytes = 48;
+inline constexpr size_t kMaximumEncodedBytes = kMaximumMessageBytes - kReservedTrailerBytes;
+
+inline constexpr int kMaximumOrdersPerMessage = 27;
+inline constexpr int kMaximumPartBytes = 1100;
+inline constexpr int kMaximumParts = 1024;
+inline constexpr int kMaximumHeldVersions = 32;
+inline constexpr int kMaximumMissingRanges = 32;
+inline constexpr int kMaximumSensors = 250;
+inline constexpr int kValuesPerChunk = 308;
+
+/// Which run a message belongs to: its run_id and the hash of the run's configuration.
+struct RunIdentity {
+  int64_t run_id = 0;
+  uint32_t config_hash = 0;
+  bool operator==(const RunIdentity&) const = default;
+};
+
+/// The largest allowed value of each count of a message, in the order of its fields.
+inline std::initializer_list<int32_t> CountMaxima(const run_t&) {
+  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumPartBytes};
+  return kMaxima;
+}
+inline std::initializer_list<int32_t> CountMaxima(const orders_t&) {
+  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumOrdersPerMessage};
+  return kMaxima;
+}
+inline std::initializer_list<int32_t> CountMaxima(const transitions_t&) {
+  static constexpr std::initializer_list<int32_t> kMaxima = {128, 129, kMaximumSensors,
+                                                             5 * (kMaximumSensors + 1) / 8 + 1};
+  return kMaxima;
+}
+inline std::initializer_list<int32_t> CountMaxima(const weights_t&) {
+  static constexpr std::initializer_list<int32_t> kMaxima = {kValuesPerChunk};
+  return kMaxima;
+}
+inline std::initializer_list<int32_t> CountMaxima(const actor_status_t&) {
+  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumHeldVersions, kMaximumMissingRanges};
+  return kMaxima;
+}
+inline std::initializer_list<int32_t> CountMaxima(const learner_status_t&) {
+  return {};
+}
+
+/// Whether the counts in the encoded message lie in 0 .. maxima and the size is allowed.
+bool CountsAreAllowed(std::span<const std::byte> message, std::initializer_list<int32_t> maxima);
+
+/// Decodes a message; false where it is of another type, malformed, oversized or longer than its
+/// content. Never throws, never allocates more than the limits allow.
+template <class Message>
+bool Decode(std::span<const std::byte> bytes, Message& message) {
+  if (!CountsAreAllowed(bytes, CountMaxima(message))) {
+    return false;
+  }
+  try {
+    const int size = static_cast<int>(bytes.size());
+    return message.decode(bytes.data(), 0, size) == size;
+  } catch (const std::exception&) {  // a string of negative length, say
+    return false;
+  }
+}
+
+/// Replaces `bytes` by the encoded message. CHECKs that it fits kMaximumEncodedBytes.
+template <class Message>
+void Encode(const Message& message, std::vector<std::byte>& bytes);
+
+/// Sets utime to now, and the identity.
+template <class Message>
+void Stamp(Message& message, RunIdentity identity, int64_t utime) {
+  message.utime = utime;
+  message.run_id = identity.run_id;
+  message.config_hash = identity.config_hash;
+}
+
+template <class Message>
+RunIdentity IdentityOf(const Message& message) {
+  return {message.run_id, static_cast<uint32_t>(message.config_hash)};
+}
+
+void CheckEncoded(int encoded, size_t size);
+
+template <class Message>
+void Encode(const Message& message, std::vector<std::byte>& bytes) {
+  bytes.resize(static_cast<size_t>(message.getEncodedSize()));
+  CheckEncoded(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())), bytes.size());
+}
+
+}  // namespace fresco

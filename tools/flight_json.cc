@@ -1,0 +1,30 @@
+#include "tools/flight_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fresco {
+
+std::string FlightJson(const World& world, const Flight& flight, const std::string& policy) {
+  using Json = nlohmann::ordered_json;
+  const AoiFigures figures = Figures(world, flight);
+  Json json = {{"policy", policy},
+               {"arrived", flight.arrived()},
+               {"outcome", OutcomeName(flight.outcome)},
+               {"slots", flight.slots.size()},
+               {"total_aoi", figures.total_aoi},
+               {"average_aoi", figures.average_aoi},
+               {"sum_aoi", figures.sum_aoi},
+               {"residual_energy_j", flight.residual_energy_j}};
+  Json& slots = json["flight"] = Json::array();
+  for (const FlightSlot& slot : flight.slots) {
+    slots.push_back({{"slot", slot.state.slot},
+                     {"column", slot.state.cell.column},
+                     {"row", slot.state.cell.row},
+                     {"move", MoveName(slot.action.move)},
+                     {"scheduled", slot.action.schedule},
+                     {"aoi", slot.state.aoi}});
+  }
+  return json.dump(2);
+}
+
+}  // namespace fresco

@@ -1,0 +1,34 @@
+#include "tools/installation.h"
+
+#include "core/error.h"
+
+namespace fresco {
+namespace {
+
+std::filesystem::path OwnDirectory() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+}  // namespace
+
+std::filesystem::path SiblingProgram(const std::string& name) {
+  const std::filesystem::path path = OwnDirectory() / name;
+  if (!std::filesystem::exists(path)) {
+    throw UsageError("expected the program " + path.string() + " beside this one; build or install all of Fresco");
+  }
+  return path;
+}
+
+std::string DefaultConfigPath() {
+  const std::filesystem::path name = std::filesystem::path("configs") / "quick.textproto";
+  // build/<preset>/bin in the source tree; <prefix>/bin when installed.
+  const std::filesystem::path own = OwnDirectory();
+  for (const auto& path : {name, own / "../../.." / name, own / "../share/fresco" / name}) {
+    if (std::filesystem::exists(path)) {
+      return path.lexically_normal().string();
+    }
+  }
+  throw UsageError("--config: configs/quick.textproto was not found; name an experiment");
+}
+
+}  // namespace fresco

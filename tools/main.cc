@@ -1,0 +1,45 @@
+// The program behind tools/fresco.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "core/error.h"
+#include "core/stop_signal.h"
+#include "core/version.h"
+#include "tools/subcommands.h"
+
+namespace fresco {
+namespace {
+
+int Main(int argc, char** argv) {
+  CLI::App app("Fresco trains a UAV to keep the data of a sensor field fresh.", "fresco");
+  app.set_version_flag("--version", kSoftwareVersion);
+  app.require_subcommand(1);
+  Command command;
+  AddTrain(app, command);
+  AddEvaluate(app, command);
+  app.footer("tools/fresco test runs all tests. Exit status: 0 done, 1 the work failed, 2 wrong use.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
+  }
+  return command();
+}
+
+}  // namespace
+}  // namespace fresco
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("fresco"));
+  spdlog::set_pattern("%n: %l: %v");
+  fresco::StopSignal::Install();
+  try {
+    return fresco::Main(argc, argv);
+  } catch (const fresco::Error& error) {
+    spdlog::error("{}", error.what());
+    return error.exit_status();
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return 1;
+  }
+}

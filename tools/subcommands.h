@@ -1,0 +1,16 @@
+// The subcommands of `fresco`, in the order of `fresco --help`. Each adds itself to the command line
+// and runs when it is chosen; its result is the exit status.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace fresco {
+
+/// What to run once the command line is parsed.
+using Command = std::function<int()>;
+
+void AddTrain(CLI::App& app, Command& command);
+void AddEvaluate(CLI::App& app, Command& command);
+
+}  // namespace fresco
