@@ -7,10 +7,12 @@
 namespace fresco {
 namespace {
 
-constexpr int64_t kSilentUs = 3'000'000;      // an actor that says nothing for so long is gone
+constexpr int64_t kGoneUs = 3'000'000;        // an actor that says nothing for so long is forgotten
+constexpr int64_t kSilentUs = 350'000;        // several statuses missed: it gets no orders, its own go to others
 constexpr int64_t kAnnounceAgainUs = 60'000;  // an order whose result is not here is repeated
 constexpr int64_t kSoonestLateUs = 150'000;
-constexpr double kLateFactor = 4;
+constexpr double kLateFactor = 4;  // late: several times the usual latency
+constexpr int kLongestPatience = 8;
 
 }  // namespace
 
@@ -34,32 +36,37 @@ void Roster::Completed(int64_t index, int64_t now_us) {
   assignments_.erase(found);
 }
 
-void Roster::ForgetSilentActors(int64_t now_us) {
-  std::erase_if(actors_, [&](const auto& entry) { return now_us - entry.second.last_heard_us > kSilentUs; });
+void Roster::ForgetGoneActors(int64_t now_us) {
+  std::erase_if(actors_, [&](const auto& entry) { return now_us - entry.second.last_heard_us > kGoneUs; });
 }
 
-int64_t Roster::Choose(int64_t except) const {
+bool Roster::IsSilent(int64_t actor_id, int64_t now_us) const {
+  const auto found = actors_.find(actor_id);
+  return found == actors_.end() || now_us - found->second.last_heard_us > kSilentUs;
+}
+
+int64_t Roster::Choose(int64_t except, int64_t now_us) const {
   int64_t best = 0;
   double best_load = 0;
   for (const auto& [id, actor] : actors_) {
     const auto open = open_orders_.find(id);
     const double load = (open == open_orders_.end() ? 0.0 : open->second) / actor.capacity;
-    if (id != except && (best == 0 || load < best_load)) {
+    if (id != except && !IsSilent(id, now_us) && (best == 0 || load < best_load)) {
       best = id;
       best_load = load;
     }
   }
-  return best != 0 ? best : actors_.contains(except) ? except : 0;
+  return best != 0 || IsSilent(except, now_us) ? best : except;
 }
 
 bool Roster::IsLate(const Assignment& assignment, int64_t now_us) const {
   const double patience_us = std::max<double>(kSoonestLateUs, kLateFactor * latency_us_);
-  return !actors_.contains(assignment.actor_id) ||
-         static_cast<double>(now_us - assignment.assigned_us) > patience_us * (1 + assignment.attempt);
+  return IsSilent(assignment.actor_id, now_us) ||
+         static_cast<double>(now_us - assignment.assigned_us) > patience_us * std::min(1 + assignment.attempt, kLongestPatience);
 }
 
 std::vector<order_t> Roster::DueOrders(const Ledger& ledger, int64_t now_us) {
-  ForgetSilentActors(now_us);
+  ForgetGoneActors(now_us);
   std::vector<order_t> due;
   for (int64_t index = ledger.committed(); index < ledger.committed() + ledger.in_flight(); ++index) {
     if (ledger.IsComplete(index)) {
@@ -68,7 +75,7 @@ std::vector<order_t> Roster::DueOrders(const Ledger& ledger, int64_t now_us) {
     const auto [found, is_new] = assignments_.try_emplace(index);
     Assignment& assignment = found->second;
     if (assignment.actor_id == 0 || IsLate(assignment, now_us)) {
-      const int64_t chosen = Choose(assignment.actor_id);
+      const int64_t chosen = Choose(assignment.actor_id, now_us);
       if (chosen == 0) {
         continue;
       }
@@ -95,7 +102,7 @@ std::string Roster::Awaited(int64_t index, int64_t now_us) const {
     return "an actor to join";
   }
   const auto found = assignments_.find(index);
-  if (found == assignments_.end() || !actors_.contains(found->second.actor_id)) {
+  if (found == assignments_.end() || IsSilent(found->second.actor_id, now_us)) {
     return fmt::format("an actor for order {}", index);
   }
   const ActorRecord& actor = actors_.at(found->second.actor_id);

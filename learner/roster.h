@@ -47,9 +47,10 @@ class Roster {
     int64_t announced_us = 0;
   };
 
-  void ForgetSilentActors(int64_t now_us);
-  /// The live actor with the most room, another than `except` where there is one; 0: none.
-  int64_t Choose(int64_t except) const;
+  void ForgetGoneActors(int64_t now_us);
+  bool IsSilent(int64_t actor_id, int64_t now_us) const;
+  /// The actor with the most room that is not silent, another than `except` where there is one; 0: none.
+  int64_t Choose(int64_t except, int64_t now_us) const;
   bool IsLate(const Assignment& assignment, int64_t now_us) const;
 
   std::map<int64_t, ActorRecord> actors_;

@@ -133,18 +133,15 @@ Scenario ToScenario(const proto::Scenario& from) {
   return scenario;
 }
 
-Scenario CheckedScenario(const proto::Scenario& from, const std::string& origin) {
-  try {
-    Scenario scenario = ToScenario(from);
-    World checked(scenario);
-    if (checked.sensors() > kMaximumSensors) {
-      throw UsageError(fmt::format("scenario.sensor: {} sensors; allowed: 1 to {} (a transition must fit one "
-                                   "Ethernet frame)", checked.sensors(), kMaximumSensors));
-    }
-    return scenario;
-  } catch (const Error& error) {
-    throw UsageError(origin + ": " + error.what());
+Scenario CheckedScenario(const proto::Scenario& from) {
+  Scenario scenario = ToScenario(from);
+  const World checked(scenario);
+  if (checked.sensors() > kMaximumSensors) {
+    throw UsageError(fmt::format("scenario.sensor: {} sensors; allowed: 1 to {} (a transition must fit one "
+                                 "Ethernet frame)",
+                                 checked.sensors(), kMaximumSensors));
   }
+  return scenario;
 }
 
 std::string Print(const google::protobuf::Message& message) {
@@ -167,8 +164,12 @@ Experiment Experiment::Parse(const std::string& text, const std::string& origin,
   FillDefaults(config);
   CheckAlternatives(config, origin);
   CheckRanges(config, origin);
-  ChannelsWithPrefix(config.run().channel_prefix());
-  experiment.scenario_ = CheckedScenario(config.scenario(), origin);
+  try {
+    ChannelsWithPrefix(config.run().channel_prefix());
+    experiment.scenario_ = CheckedScenario(config.scenario());
+  } catch (const Error& error) {
+    throw UsageError(origin + ": " + error.what());
+  }
   const std::string canonical = experiment.CanonicalText();
   experiment.hash_ = std::max(Crc32c(std::as_bytes(std::span(canonical))), 1u);
   return experiment;

@@ -150,13 +150,16 @@ class TrainSupervisor {
     constexpr int64_t kEarlyUs = 2'000'000;
     constexpr int kGiveUpAfter = 5;
     constexpr int64_t kFirstPauseUs = 100'000;
-    const bool early = now_us - place.process->started_us() < kEarlyUs;
+    constexpr int64_t kLongestPauseUs = 5'000'000;
+    const int status = place.process->ExitStatus().value();
+    const bool killed = status == 128 + SIGKILL || status == 128 + SIGTERM;  // by somebody else: it can start
+    const bool early = !killed && now_us - place.process->started_us() < kEarlyUs;
     place.early_deaths = early ? place.early_deaths + 1 : 0;
     if (place.early_deaths >= kGiveUpAfter) {
       throw Failure(fmt::format("an actor ended {} times right after its start; its log {} ends with:{}",
                                 kGiveUpAfter, log.string(), LastLines(log, 3)));
     }
-    place.start_at_us = now_us + (early ? kFirstPauseUs << place.early_deaths : 0);
+    place.start_at_us = now_us + (early ? std::min(kLongestPauseUs, kFirstPauseUs << place.early_deaths) : 0);
     place.process.reset();
   }
 

@@ -1,0 +1,67 @@
+"""`fresco evaluate`: every flight is checked against the paper's equations, written out once more here."""
+import json
+import math
+import sys
+import unittest
+
+from fresco_process import CI_CONFIG, ROOT, FrescoTest
+
+QUICK = ROOT / "configs" / "quick.textproto"
+SENSORS_M = [(200, 175), (25, 100), (450, 475)]
+MOVES = {"north": (0, 1), "south": (0, -1), "east": (1, 0), "west": (-1, 0), "hover": (0, 0)}
+SLOTS = 70
+HOVER_W, FLY_W = 219.82, 112.876  # Table I
+
+
+class Evaluate(FrescoTest):
+    def flight(self, *arguments):
+        output, _ = self.run_fresco("evaluate", *arguments, "--format", "json")
+        return json.loads(output)
+
+    def check(self, flown, radius_m=100):
+        """Eqs. (start pos), (stop pos), Dynamic-AoI and the sums, from the flight alone."""
+        self.assertTrue(flown["arrived"])
+        slots = flown["flight"]
+        self.assertEqual([slot["slot"] for slot in slots], list(range(1, SLOTS + 1)))
+        self.assertEqual((slots[0]["column"], slots[0]["row"]), (10, 0))
+        self.assertEqual((slots[-1]["column"], slots[-1]["row"]), (10, 19))
+        self.assertEqual(slots[0]["aoi"], [1, 1, 1])
+        energy_j = 22000
+        for now, after in zip(slots, slots[1:]):
+            step = MOVES[now["move"]]
+            self.assertEqual((after["column"], after["row"]), (now["column"] + step[0], now["row"] + step[1]))
+            self.assertTrue(0 <= after["column"] < 20 and 0 <= after["row"] < 20)
+            expected = [age + 1 for age in now["aoi"]]
+            if now["scheduled"]:
+                x, y = SENSORS_M[now["scheduled"] - 1]
+                if math.hypot(25 * now["column"] - x, 25 * now["row"] - y) <= radius_m:
+                    expected[now["scheduled"] - 1] = 1
+            self.assertEqual(after["aoi"], expected)
+            energy_j -= HOVER_W if now["move"] == "hover" else FLY_W
+        total = sum(sum(slot["aoi"]) for slot in slots)
+        self.assertEqual(flown["total_aoi"], total)
+        self.assertAlmostEqual(flown["sum_aoi"], total / SLOTS, places=9)
+        self.assertAlmostEqual(flown["average_aoi"], total / SLOTS / 3, places=9)
+        self.assertAlmostEqual(flown["residual_energy_j"], energy_j, delta=0.1)
+
+    def test_flies_both_baselines_by_the_equations(self):
+        for policy in ("aoi", "distance"):
+            self.check(self.flight("--config", QUICK, "--policy", policy))
+
+    def test_flies_a_trained_run_by_the_equations(self):
+        summary = self.train(17321, "run")
+        for policy in (self.folder / "run", self.folder / "run" / "best.network"):
+            flown = self.flight("--policy", policy)
+            self.check(flown)
+            self.assertEqual(flown["total_aoi"], summary["total_aoi"])
+        baselines = [self.flight("--config", CI_CONFIG, "--policy", policy) for policy in ("aoi", "distance")]
+        self.assertEqual([flown["total_aoi"] for flown in baselines],
+                         [summary["baselines"][policy]["total_aoi"] for policy in ("aoi", "distance")])
+
+    def test_names_a_policy_that_is_none(self):
+        _, errors = self.run_fresco("evaluate", "--config", QUICK, "--policy", "best", expect=2)
+        self.assertIn("best", errors)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())

@@ -1,0 +1,66 @@
+"""Starts Fresco's programs for the integration tests: each test on an LCM port of its own."""
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+BIN = pathlib.Path(os.environ["FRESCO_BIN"])
+CI_CONFIG = ROOT / "configs" / "ci.textproto"
+
+
+def url(port):
+    return f"udpm://239.255.76.67:{port}?ttl=0"
+
+
+def processes_with(argument):
+    """Process ids whose command line has the argument: nothing may be left behind."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                if argument.encode() in (entry / "cmdline").read_bytes():
+                    found.append(int(entry.name))
+            except OSError:
+                pass
+    return [pid for pid in found if pid != os.getpid()]
+
+
+class FrescoTest(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="fresco-test-")
+        self.folder = pathlib.Path(self._folder.name)
+        self.addCleanup(self._folder.cleanup)
+
+    def start(self, *arguments, program="fresco", **options):
+        return subprocess.Popen([BIN / program, *map(str, arguments)], stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, **options)
+
+    def run_fresco(self, *arguments, expect=0, program="fresco"):
+        process = self.start(*arguments, program=program)
+        output, errors = process.communicate(timeout=240)
+        self.assertEqual(process.returncode, expect, f"{arguments}\n{output}\n{errors}")
+        return output, errors
+
+    def train(self, port, name, *arguments, config=CI_CONFIG, expect=0):
+        output, _ = self.run_fresco("train", "--config", config, "--lcm-url", url(port), "--out",
+                                    self.folder / name, "--format", "json", *arguments, expect=expect)
+        return json.loads(output)
+
+
+def read_log(path):
+    """Events of an LCM log: (channel, data). The format stands in LCM's documentation."""
+    data = pathlib.Path(path).read_bytes()
+    position = 0
+    while position + 28 <= len(data):
+        sync, _, _, channel_size, size = struct.unpack_from(">IqqII", data, position)
+        if sync != 0xEDA1DA01:
+            raise ValueError(f"no event at byte {position}")
+        begin = position + 28
+        if begin + channel_size + size > len(data):
+            return
+        yield data[begin:begin + channel_size].decode(), data[begin + channel_size:begin + channel_size + size]
+        position = begin + channel_size + size

@@ -1,0 +1,122 @@
+"""`fresco train` with real processes over real LCM: the promises of the README."""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from fresco_process import CI_CONFIG, FrescoTest, processes_with, read_log, url
+
+SUMMARY_KEYS = {
+    "run_id", "config_hash", "seed", "episodes", "transitions", "updates", "wall_s", "updates_per_s",
+    "transitions_per_s", "weights_crc32c", "total_aoi", "average_aoi", "arrived", "baselines", "bus"}
+
+
+def wait_until(condition, what, timeout_s=60):
+    deadline = time.monotonic() + timeout_s
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {timeout_s} s for {what}")
+        time.sleep(0.01)
+
+
+class Train(FrescoTest):
+    def test_gives_the_same_weights_with_any_number_of_actors(self):
+        summaries = [self.train(17301, f"actors-{n}", "--actors", n) for n in (1, 2, 4)]
+        self.assertEqual(len({summary["weights_crc32c"] for summary in summaries}), 1)
+        for summary in summaries:
+            self.assertLessEqual(SUMMARY_KEYS, set(summary))
+            self.assertEqual(summary["episodes"], 400)
+            self.assertTrue(summary["arrived"])
+        other = self.train(17301, "seed-2", "--seed", 2)
+        self.assertNotEqual(other["weights_crc32c"], summaries[0]["weights_crc32c"])
+
+    def test_gives_the_same_weights_when_actors_are_killed(self):
+        undisturbed = self.train(17302, "undisturbed", "--set", "schedule.episodes=1000")
+        folder = self.folder / "disturbed"
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17302), "--out", folder,
+                             "--format", "json", "--set", "schedule.episodes=1000")
+        killed = 0
+        while process.poll() is None:
+            for pid in set(processes_with("fresco-actor")) & set(processes_with(url(17302))):
+                os.kill(pid, signal.SIGKILL)
+                killed += 1
+                break
+            try:
+                process.wait(0.4)
+            except subprocess.TimeoutExpired:
+                pass
+        output, errors = process.communicate()
+        self.assertEqual(process.returncode, 0, errors)
+        self.assertGreater(killed, 0)
+        self.assertEqual(json.loads(output)["weights_crc32c"], undisturbed["weights_crc32c"])
+
+    def test_speaks_on_all_seven_channels_in_single_frames(self):
+        log = self.folder / "lcm.log"
+        logger = subprocess.Popen(["lcm-logger", "--lcm-url=" + url(17303) + "&recv_buf_size=4194304", "-f", log],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            wait_until(log.exists, "lcm-logger")
+            self.train(17303, "logged")
+        finally:
+            logger.terminate()
+            logger.wait(10)
+        sizes = {}
+        for channel, data in read_log(log):
+            if channel != "LCM_SELF_TEST":  # LCM's own, at the start of a program
+                sizes[channel] = max(len(data), sizes.get(channel, 0))
+        self.assertEqual(set(sizes), {"FRESCO_" + name for name in (
+            "RUN", "ORDERS", "TRANSITIONS", "WEIGHTS_CURRENT", "WEIGHTS_TARGET", "ACTOR_STATUS", "LEARNER_STATUS")})
+        self.assertLessEqual(max(sizes.values()), 1350)
+
+    def test_ends_in_order_on_interrupt(self):
+        folder = self.folder / "interrupted"
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17304), "--out", folder,
+                             "--format", "json", "--set", "schedule.episodes=1000000")
+        wait_until(lambda: (folder / "metrics.csv").exists() and process.poll() is None, "a first evaluation")
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 1, errors)
+        summary = json.loads(output)
+        self.assertFalse(summary["completed"])
+        self.assertLessEqual({"config.textproto", "metrics.csv", "best.network", "final.network", "summary.json"},
+                             {path.name for path in folder.iterdir()})
+        self.assertEqual(processes_with(str(folder)) + processes_with(":17304"), [])
+
+    def test_leaves_no_process_behind_when_it_is_killed(self):
+        folder = self.folder / "killed"
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17305), "--out", folder,
+                             "--set", "schedule.episodes=1000000")
+        wait_until(lambda: len(processes_with(":17305")) >= 3, "the actors")
+        process.kill()
+        process.communicate()
+        wait_until(lambda: not processes_with(str(folder)) and not processes_with(":17305"), "the processes to end")
+
+    def test_serves_actors_that_are_there_before_and_after_a_learner(self):
+        actor = self.start("--lcm-url", url(17306), program="fresco-actor")
+        try:
+            first = self.train(17306, "first", "--actors", 0)
+            second = self.train(17306, "second", "--actors", 0)
+            self.assertEqual(first["weights_crc32c"], second["weights_crc32c"])
+        finally:
+            actor.send_signal(signal.SIGTERM)
+            actor.communicate(timeout=10)
+        self.assertEqual(actor.returncode, 0)
+
+    def test_refuses_a_port_that_another_run_uses(self):
+        first = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17307), "--out", self.folder / "first",
+                           "--set", "schedule.episodes=1000000")
+        try:
+            wait_until(lambda: len(processes_with(":17307")) >= 3, "the first run")
+            _, errors = self.run_fresco("train", "--config", CI_CONFIG, "--lcm-url", url(17307), "--out",
+                                        self.folder / "second", expect=2)
+            self.assertIn("--lcm-url", errors)
+        finally:
+            first.send_signal(signal.SIGINT)
+            first.communicate(timeout=30)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())

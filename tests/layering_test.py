@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""The dependency rule of docs/architecture.md: which folder may include which, and one CMake target
+a folder that links exactly this. Fails naming file and line of every breach."""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+ALLOWED = {
+    "core": set(),
+    "nn": {"core"},
+    "uav": {"core"},
+    "bus": {"core"},
+    "msgs": {"core", "nn", "uav", "bus"},
+    "actors": {"core", "nn", "uav", "bus", "msgs"},
+    "learner": {"core", "nn", "uav", "bus", "msgs"},
+    "tools": {"core", "nn", "uav", "bus", "msgs", "actors", "learner"},
+}
+# Libraries that only some rooms may see.
+RESERVED = {
+    "lcm/": {"bus"},
+    "Eigen/": {"nn"},
+    "google/protobuf/": {"msgs"},
+    "nlohmann/": {"learner", "tools"},
+}
+PURE = {"nn", "uav"}  # no input or output, no clock, no random numbers but the counter-based ones
+IMPURE = re.compile(r"#include <(iostream|fstream|cstdio|chrono|random|thread|filesystem|unistd\.h)>")
+
+
+def breaches():
+    for room, allowed in ALLOWED.items():
+        for path in sorted((ROOT / room).rglob("*")):
+            if path.suffix not in {".h", ".cc"}:
+                continue
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                where = f"{path.relative_to(ROOT)}:{number}"
+                include = re.match(r'#include ["<]([^">]+)[">]', line)
+                if not include:
+                    continue
+                target = include.group(1).split("/")[0]
+                if target in ALLOWED and target != room and target not in allowed:
+                    yield f"{where}: {room} may not include {target}"
+                for prefix, rooms in RESERVED.items():
+                    if include.group(1).startswith(prefix) and room not in rooms:
+                        yield f"{where}: only {', '.join(sorted(rooms))} may include <{prefix}…>"
+                if room in PURE and IMPURE.match(line):
+                    yield f"{where}: {room} is pure: no input or output, clock or random device"
+        cmake = (ROOT / room / "CMakeLists.txt").read_text()
+        for linked in set(re.findall(r"fresco_(\w+)", cmake)) & set(ALLOWED):
+            if linked != room and linked not in allowed:
+                yield f"{room}/CMakeLists.txt: {room} may not link fresco_{linked}"
+
+
+def main():
+    found = list(breaches())
+    for breach in found:
+        print(breach)
+    files = sum(1 for room in ALLOWED for _ in (ROOT / room).rglob("*.cc"))
+    print(f"{files} source files in {len(ALLOWED)} rooms, {len(found)} breaches")
+    return 1 if found or files == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
