@@ -7,7 +7,9 @@ target_compile_options(fresco_compile_options INTERFACE
   -march=${FRESCO_INSTRUCTION_SET}
   # The same expression must give the same bits wherever it is inlined: the compiler may not
   # decide by itself which multiplications and additions it fuses. Eigen fuses explicitly.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Nobody reads errno after a square root; lets loops with one be vectorised, with the same bits.
+  -fno-math-errno)
 if(FRESCO_SANITIZE)
   list(JOIN FRESCO_SANITIZE "," fresco_sanitizers)
   target_compile_options(fresco_compile_options INTERFACE

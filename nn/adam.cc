@@ -23,13 +23,18 @@ void Adam::Step(std::span<const float> gradient, double learning_rate, std::span
   const double root = std::sqrt(1 - state_.beta2_power);
   const auto step_size = static_cast<float>(learning_rate * root / (1 - state_.beta1_power));
   const auto epsilon = static_cast<float>(options_.epsilon * root);
-  const Eigen::Map<const Eigen::ArrayXf> g(gradient.data(), static_cast<int64_t>(gradient.size()));
-  Eigen::Map<Eigen::ArrayXf> p(parameters.data(), static_cast<int64_t>(parameters.size()));
-  auto m = state_.first_moment.array();
-  auto v = state_.second_moment.array();
-  m = beta1 * m + (1 - beta1) * g;
-  v = beta2 * v + (1 - beta2) * g.square();
-  p -= step_size * m / (v.sqrt() + epsilon);
+  // A plain loop: every operation is correctly rounded, so an entry's bits depend neither on its place
+  // nor on how the compiler vectorises (Eigen's packed square root is an approximation).
+  const float* __restrict g = gradient.data();
+  float* __restrict p = parameters.data();
+  float* __restrict m = state_.first_moment.data();
+  float* __restrict v = state_.second_moment.data();
+  const size_t count = parameters.size();
+  for (size_t i = 0; i < count; ++i) {
+    m[i] = beta1 * m[i] + (1 - beta1) * g[i];
+    v[i] = beta2 * v[i] + (1 - beta2) * (g[i] * g[i]);
+    p[i] -= step_size * m[i] / (std::sqrt(v[i]) + epsilon);
+  }
 }
 
 void Adam::Restore(State state) {

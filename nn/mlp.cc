@@ -95,7 +95,10 @@ void Mlp::Backward(std::span<const float> parameters, int batch, const Matrix& o
                                         shape_.layer_inputs(layer));
     Eigen::Map<Vector> biases_gradient(gradient.data() + shape_.biases_offset(layer), shape_.layer_outputs(layer));
     weights_gradient.noalias() = above * below.transpose();
-    biases_gradient = above.rowwise().sum();
+    biases_gradient = above.col(0);
+    for (int column = 1; column < batch; ++column) {
+      biases_gradient += above.col(column);  // one order of additions, whatever the alignment
+    }
     if (layer > 0) {
       auto next = gradients[static_cast<size_t>(layer)].leftCols(batch);
       next.noalias() = Weights(shape_, layer, parameters.data()).transpose() * above;

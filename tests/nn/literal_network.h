@@ -1,0 +1,26 @@
+// The network once more, in double precision and plain loops: what nn/ is checked against.
+#pragma once
+
+#include <vector>
+
+#include "core/random.h"
+#include "nn/mlp.h"
+
+namespace fresco {
+
+using Doubles = std::vector<double>;
+
+/// Outputs for one observation.
+Doubles LiteralForward(const std::vector<int>& layer_sizes, const Doubles& parameters, const Doubles& observation);
+
+/// Uniform values in [-bound, bound).
+std::vector<float> RandomFloats(RandomStream& stream, size_t count, double bound);
+
+/// Writes one observation into a column of a workspace's input.
+void SetColumn(MlpWorkspace& workspace, int column, const std::vector<float>& observation);
+
+inline std::span<const float> SpanOf(const Vector& vector) {
+  return {vector.data(), static_cast<size_t>(vector.size())};
+}
+
+}  // namespace fresco
