@@ -7,7 +7,7 @@ import sys
 import time
 import unittest
 
-from fresco_process import CI_CONFIG, FrescoTest, processes_with, read_log, url
+from fresco_process import CI_CONFIG, ROOT, FrescoTest, processes_with, read_log, url
 
 SUMMARY_KEYS = {
     "run_id", "config_hash", "seed", "episodes", "transitions", "updates", "wall_s", "updates_per_s",
@@ -104,6 +104,15 @@ class Train(FrescoTest):
             actor.send_signal(signal.SIGTERM)
             actor.communicate(timeout=10)
         self.assertEqual(actor.returncode, 0)
+
+    def test_runs_every_ready_experiment(self):
+        configs = sorted((ROOT / "configs").glob("*.textproto"))
+        self.assertGreaterEqual(len(configs), 4)
+        for config in configs:
+            summary = self.train(17308, config.stem, "--set", "schedule.episodes=12", "--set",
+                                 "schedule.minimum_replay_size=200", config=config)
+            self.assertEqual(summary["episodes"], 12, config)
+            self.assertGreater(summary["updates"], 0, config)
 
     def test_refuses_a_port_that_another_run_uses(self):
         first = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17307), "--out", self.folder / "first",
