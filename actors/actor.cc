@@ -78,14 +78,15 @@ void Actor::HandleRun(const run_t& message) {
 void Actor::StartSession(const run_t& message, const std::string& text) {
   try {
     if (message.protocol_version != kProtocolVersion) {
-      throw UsageError(fmt::format("it speaks protocol version {}, this actor speaks {}; use the same release",
-                                   message.protocol_version, kProtocolVersion));
+      throw UsageError(
+          fmt::format("it speaks protocol version {}, this actor speaks {}; use the same release",
+                      message.protocol_version, kProtocolVersion));
     }
     if (message.arithmetic_fingerprint != arithmetic_fingerprint_) {
-      throw UsageError(
-          fmt::format("its arithmetic fingerprint is {:08x}, this actor's is {:08x}: the results would differ in "
-                      "their bits; build both with the same compiler and FRESCO_INSTRUCTION_SET",
-                      message.arithmetic_fingerprint, arithmetic_fingerprint_));
+      throw UsageError(fmt::format(
+          "its arithmetic fingerprint is {:08x}, this actor's is {:08x}: the results would differ in "
+          "their bits; build both with the same compiler and FRESCO_INSTRUCTION_SET",
+          message.arithmetic_fingerprint, arithmetic_fingerprint_));
     }
     Experiment experiment = Experiment::Parse(text, channels_.run);
     if (experiment.hash() != IdentityOf(message).config_hash) {
@@ -101,8 +102,8 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
                  static_cast<uint64_t>(message.run_id), IdentityOf(message).config_hash, capacity);
   } catch (const Error& error) {
     refused_run_ = message.run_id;
-    spdlog::error("run {:016x} on {} can't be served: {}", static_cast<uint64_t>(message.run_id), channels_.run,
-                  error.what());
+    spdlog::error("run {:016x} on {} can't be served: {}", static_cast<uint64_t>(message.run_id),
+                  channels_.run, error.what());
   }
 }
 
@@ -151,7 +152,9 @@ void Actor::TakeOrder(const order_t& wire) {
 }
 
 void Actor::ForgetCommitted(int64_t committed) {
-  const auto forget = [&](auto& by_index) { by_index.erase(by_index.begin(), by_index.lower_bound(committed)); };
+  const auto forget = [&](auto& by_index) {
+    by_index.erase(by_index.begin(), by_index.lower_bound(committed));
+  };
   forget(session_->waiting);
   forget(session_->flown);
   forget(session_->attempts);
@@ -236,7 +239,8 @@ actor_status_t Actor::Status(int64_t now_us) {
   constexpr int64_t kRatePeriodUs = 1'000'000;
   if (now_us - rate_since_us_ >= kRatePeriodUs) {
     const double seconds = static_cast<double>(now_us - rate_since_us_) * 1e-6;
-    transitions_per_s_ = static_cast<float>(static_cast<double>(totals_.transitions - rate_transitions_) / seconds);
+    transitions_per_s_ =
+        static_cast<float>(static_cast<double>(totals_.transitions - rate_transitions_) / seconds);
     rate_since_us_ = now_us;
     rate_transitions_ = totals_.transitions;
   }
@@ -262,9 +266,10 @@ actor_status_t Actor::Status(int64_t now_us) {
 }
 
 std::string Actor::Description() const {
-  return fmt::format("actor {:016x}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} messages rejected",
-                     static_cast<uint64_t>(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
-                     totals_.resent_episodes, totals_.rejected_messages);
+  return fmt::format(
+      "actor {:016x}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} messages rejected",
+      static_cast<uint64_t>(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
+      totals_.resent_episodes, totals_.rejected_messages);
 }
 
 }  // namespace fresco

@@ -19,8 +19,8 @@
 namespace fresco {
 
 struct ActorOptions {
-  int64_t actor_id = 1;        ///< unique among the actors of a bus; never 0
-  int64_t run_id = 0;          ///< serve this run only; 0: any
+  int64_t actor_id = 1;         ///< unique among the actors of a bus; never 0
+  int64_t run_id = 0;           ///< serve this run only; 0: any
   std::optional<int> capacity;  ///< environments; none: as the run's configuration says
   std::string host;
   int32_t pid = 0;
@@ -59,8 +59,8 @@ class Actor {
     RunIdentity identity;
     NetworkStore store;
     Flyer flyer;
-    std::map<int64_t, Order> waiting;    // by index: for networks or room
-    std::map<int64_t, Episode> flown;    // by index, until committed: to be sent again if asked for
+    std::map<int64_t, Order> waiting;     // by index: for networks or room
+    std::map<int64_t, Episode> flown;     // by index, until committed: to be sent again if asked for
     std::map<int64_t, int32_t> attempts;  // by index: the last one answered
     int64_t last_heard_us = 0;
   };

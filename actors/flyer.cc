@@ -58,8 +58,8 @@ bool Flyer::IsFlying(int64_t order_index) const {
 
 void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
   FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
-  auto& flight = flights_.emplace_back(
-      std::make_unique<Flight>(*world_, order, std::move(current), std::move(target)));
+  auto& flight =
+      flights_.emplace_back(std::make_unique<Flight>(*world_, order, std::move(current), std::move(target)));
   flight->environment.Reset();
   flight->environment.WriteMask(mask_options_, flight->mask);
   flight->episode.states.push_back(flight->environment.state());
@@ -121,7 +121,8 @@ void Flyer::FinishLastTransition(Flight& flight, int column) {
 
 int Flyer::ChooseAction(const Flight& flight, int column) const {
   const auto slot = static_cast<uint32_t>(flight.environment.state().slot);
-  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(flight.order.index), slot);
+  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(flight.order.index),
+                      slot);
   if (stream.NextUniform() < flight.order.epsilon) {
     const auto allowed = static_cast<uint32_t>(std::count(flight.mask.begin(), flight.mask.end(), 1));
     return AllowedAction(flight.mask, stream.NextBelow(allowed));
@@ -132,7 +133,8 @@ int Flyer::ChooseAction(const Flight& flight, int column) const {
 int Flyer::GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) const {
   int best = -1;
   for (int action = 0; action < world_->actions(); ++action) {
-    if (mask[static_cast<size_t>(action)] != 0 && (best < 0 || values(action, column) > values(best, column))) {
+    if (mask[static_cast<size_t>(action)] != 0 &&
+        (best < 0 || values(action, column) > values(best, column))) {
       best = action;
     }
   }

@@ -66,7 +66,8 @@ void Serve(const Arguments& arguments) {
 
 int Main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app("Flies episodes for Fresco's learner: waits on the bus for a run, serves it, waits for the next.");
+  CLI::App app(
+      "Flies episodes for Fresco's learner: waits on the bus for a run, serves it, waits for the next.");
   app.set_version_flag("--version", kSoftwareVersion);
   app.add_option("--lcm-url", arguments.lcm_url, "Where the learner is")->capture_default_str();
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")

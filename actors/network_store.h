@@ -59,7 +59,8 @@ class NetworkStore {
 
   Assembly& Open(NetworkVersion version, int64_t crc32c, int64_t now_us);
   void MakeRoom();
-  void AppendMissing(NetworkVersion version, const Assembly& assembly, std::vector<chunk_range_t>& ranges) const;
+  void AppendMissing(NetworkVersion version, const Assembly& assembly,
+                     std::vector<chunk_range_t>& ranges) const;
 
   int64_t parameters_;
   std::map<NetworkVersion, Assembly> versions_;

@@ -29,10 +29,12 @@ std::string EscapeChannel(const std::string& channel) {
 
 std::string Remedy(const std::string& url) {
   if (url.starts_with("tcpq")) {
-    return "no LCM TCP server answers there; start one with: java -cp /usr/share/java/lcm.jar lcm.lcm.TCPService PORT";
+    return "no LCM TCP server answers there; start one with: java -cp /usr/share/java/lcm.jar "
+           "lcm.lcm.TCPService PORT";
   }
   return "most likely no route covers multicast; as root: ip route add 224.0.0.0/4 dev lo (as another user: "
-         "unshare -Urn, then the same inside, after ip link set lo up), or the port is taken by another program";
+         "unshare -Urn, then the same inside, after ip link set lo up), or the port is taken by another "
+         "program";
 }
 
 class LcmBus : public Bus {
@@ -59,11 +61,13 @@ class LcmBus : public Bus {
 
   void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
     Subscription& subscription = subscriptions_.emplace_back(Subscription{this, std::move(handler)});
-    lcm_subscription_t* raw = lcm_subscribe(lcm_, EscapeChannel(channel).c_str(), &LcmBus::Dispatch, &subscription);
+    lcm_subscription_t* raw =
+        lcm_subscribe(lcm_, EscapeChannel(channel).c_str(), &LcmBus::Dispatch, &subscription);
     if (raw == nullptr) {
-      throw UsageError(fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
-                                   "may drop them (allow UDP to 224.0.0.0/4), or {}",
-                                   channel, url_, Remedy(url_)));
+      throw UsageError(
+          fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
+                      "may drop them (allow UDP to 224.0.0.0/4), or {}",
+                      channel, url_, Remedy(url_)));
     }
     lcm_subscription_set_queue_capacity(raw, queue_capacity);
   }

@@ -60,7 +60,8 @@ void CheckAddress(const std::string& url, const std::string& address, bool multi
   }
 }
 
-std::string NormalizeUdpm(const std::string& url, const std::string& address, const std::string& option_text) {
+std::string NormalizeUdpm(const std::string& url, const std::string& address,
+                          const std::string& option_text) {
   CheckAddress(url, address, true);
   auto options = ParseOptions(url, option_text);
   options.try_emplace("ttl", "0");
@@ -87,8 +88,8 @@ std::string NormalizeLcmUrl(const std::string& url) {
   const size_t scheme_end = url.find("://");
   const std::string scheme = url.substr(0, scheme_end == std::string::npos ? 0 : scheme_end);
   if (scheme != "udpm" && scheme != "tcpq" && scheme != "memq") {
-    Refuse(url, fmt::format("expected udpm://group:port, tcpq://host:port or memq://, found scheme \"{}\"{}", scheme,
-                            scheme == "file" ? " (file:// is for logs, not for a live run)" : ""));
+    Refuse(url, fmt::format("expected udpm://group:port, tcpq://host:port or memq://, found scheme \"{}\"{}",
+                            scheme, scheme == "file" ? " (file:// is for logs, not for a live run)" : ""));
   }
   const std::string rest = url.substr(scheme_end + 3);
   const size_t question = std::min(rest.find('?'), rest.size());

@@ -45,7 +45,9 @@ class LossyBus : public Bus {
     inner_->Subscribe(channel, std::move(handler), queue_capacity);
   }
 
-  int Poll(int64_t timeout_us, int maximum_messages) override { return inner_->Poll(timeout_us, maximum_messages); }
+  int Poll(int64_t timeout_us, int maximum_messages) override {
+    return inner_->Poll(timeout_us, maximum_messages);
+  }
 
  private:
   static constexpr uint32_t kLongestDelay = 16;

@@ -16,7 +16,8 @@ namespace {
 /// Closes its descriptor; `Fail` throws with the cause that errno names.
 class Descriptor {
  public:
-  Descriptor(const std::filesystem::path& path, int flags) : path_(path), fd_(::open(path.c_str(), flags, 0644)) {
+  Descriptor(const std::filesystem::path& path, int flags)
+      : path_(path), fd_(::open(path.c_str(), flags, 0644)) {
     if (fd_ < 0) {
       Fail("open");
     }
@@ -67,7 +68,8 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
       file.Sync();
     }
     if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-      throw Failure("can't rename " + temporary.string() + " to " + path.string() + ": " + std::strerror(errno));
+      throw Failure("can't rename " + temporary.string() + " to " + path.string() + ": " +
+                    std::strerror(errno));
     }
   } catch (...) {
     ::unlink(temporary.c_str());
@@ -80,7 +82,8 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
 std::string ReadFile(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream content;
-  if (!stream || std::filesystem::is_directory(path) || !(content << stream.rdbuf() || stream.peek() == EOF)) {
+  if (!stream || std::filesystem::is_directory(path) ||
+      !(content << stream.rdbuf() || stream.peek() == EOF)) {
     throw UsageError("can't read " + path.string() + ": " +
                      (std::filesystem::is_directory(path) ? "it is a directory" : std::strerror(errno)));
   }

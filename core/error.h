@@ -26,9 +26,13 @@ class Error : public std::runtime_error {
 };
 
 /// An Error of kind kFailure.
-inline Error Failure(const std::string& message) { return {ErrorKind::kFailure, message}; }
+inline Error Failure(const std::string& message) {
+  return {ErrorKind::kFailure, message};
+}
 
 /// An Error of kind kUsage.
-inline Error UsageError(const std::string& message) { return {ErrorKind::kUsage, message}; }
+inline Error UsageError(const std::string& message) {
+  return {ErrorKind::kUsage, message};
+}
 
 }  // namespace fresco

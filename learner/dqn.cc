@@ -63,7 +63,8 @@ void Dqn::ComputeTargets(const MiniBatch& batch) {
   if (options_.double_dqn) {
     mlp_.Forward(Span(current_), size, next_workspace_);
     for (int column = 0; column < size; ++column) {
-      choices_[static_cast<size_t>(column)] = BestAllowed(next_workspace_.output(), batch.next_penalty, column);
+      choices_[static_cast<size_t>(column)] =
+          BestAllowed(next_workspace_.output(), batch.next_penalty, column);
     }
   }
   mlp_.Forward(Span(target_), size, next_workspace_);

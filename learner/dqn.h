@@ -42,8 +42,8 @@ class Dqn {
   Adam adam_;
   MlpWorkspace workspace_;
   MlpWorkspace next_workspace_;
-  Vector targets_;           // y
-  Matrix output_gradient_;   // [actions x batch]
+  Vector targets_;          // y
+  Matrix output_gradient_;  // [actions x batch]
   Vector gradient_;
   std::vector<int> choices_;  // of the current network in s', Double DQN only
 };

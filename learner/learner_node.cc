@@ -43,7 +43,8 @@ LearnerNode::LearnerNode(const Experiment& experiment, const World& world, int64
   announcement_.outputs = shape.outputs();
   announcement_.parameters = static_cast<int32_t>(shape.parameter_count());
   announcement_.values_per_chunk = kValuesPerChunk;
-  Subscribe<transitions_t>(channels_.transitions, [this](const auto& message) { HandleTransitions(message); });
+  Subscribe<transitions_t>(channels_.transitions,
+                           [this](const auto& message) { HandleTransitions(message); });
   Subscribe<actor_status_t>(channels_.actor_status, [this](const auto& message) { HandleStatus(message); });
   Subscribe<run_t>(channels_.run, [this](const auto& message) { HandleRun(message); });
 }
@@ -126,11 +127,17 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
     return Reject(&BusCounters::rejected_malformed);
   }
   switch (ledger_.Add(run_)) {
-    case Ledger::Arrival::kAccepted: return;
-    case Ledger::Arrival::kDuplicate: ++counters_.duplicate; return;
-    case Ledger::Arrival::kUnknownOrder: return Reject(&BusCounters::rejected_foreign);
-    case Ledger::Arrival::kInconsistent: return Reject(&BusCounters::rejected_inconsistent);
-    case Ledger::Arrival::kCompleted: break;
+    case Ledger::Arrival::kAccepted:
+      return;
+    case Ledger::Arrival::kDuplicate:
+      ++counters_.duplicate;
+      return;
+    case Ledger::Arrival::kUnknownOrder:
+      return Reject(&BusCounters::rejected_foreign);
+    case Ledger::Arrival::kInconsistent:
+      return Reject(&BusCounters::rejected_inconsistent);
+    case Ledger::Arrival::kCompleted:
+      break;
   }
   roster_.Completed(run_.order_index, MonotonicMicroseconds());
   if (run_.order_index == ledger_.committed()) {
@@ -201,7 +208,8 @@ void LearnerNode::SendRun(bool finished) {
   announcement_.finished = finished ? 1 : 0;
   announcement_.part_count = (size + kMaximumPartBytes - 1) / kMaximumPartBytes;
   for (int part = 0; part < announcement_.part_count; ++part) {
-    const std::string text = config_text_.substr(static_cast<size_t>(part) * kMaximumPartBytes, kMaximumPartBytes);
+    const std::string text =
+        config_text_.substr(static_cast<size_t>(part) * kMaximumPartBytes, kMaximumPartBytes);
     announcement_.part_index = part;
     announcement_.part.assign(text.begin(), text.end());
     announcement_.part_size = static_cast<int32_t>(text.size());

@@ -25,12 +25,12 @@ namespace fresco {
 
 /// What happened to messages, for summary.json's `bus` and the status.
 struct BusCounters {
-  int64_t received = 0;            ///< messages of this run
-  int64_t lost = 0;                ///< orders whose result had to be asked for again
-  int64_t duplicate = 0;           ///< transitions messages that brought nothing new
-  int64_t rejected = 0;            ///< sum of the causes below
-  int64_t rejected_malformed = 0;  ///< does not decode, or values out of range
-  int64_t rejected_foreign = 0;    ///< another run, another configuration, an order never written
+  int64_t received = 0;               ///< messages of this run
+  int64_t lost = 0;                   ///< orders whose result had to be asked for again
+  int64_t duplicate = 0;              ///< transitions messages that brought nothing new
+  int64_t rejected = 0;               ///< sum of the causes below
+  int64_t rejected_malformed = 0;     ///< does not decode, or values out of range
+  int64_t rejected_foreign = 0;       ///< another run, another configuration, an order never written
   int64_t rejected_inconsistent = 0;  ///< an episode that does not follow from its actions
   int64_t rejected_arithmetic = 0;    ///< statuses of actors whose arithmetic differs
   int64_t reordered_episodes = 0;     ///< complete before an earlier one
@@ -39,7 +39,8 @@ struct BusCounters {
 class LearnerNode {
  public:
   /// Subscribes on `bus`, which must outlive the node, as must `world`.
-  LearnerNode(const Experiment& experiment, const World& world, int64_t run_id, Bus& bus, const Channels& channels);
+  LearnerNode(const Experiment& experiment, const World& world, int64_t run_id, Bus& bus,
+              const Channels& channels);
 
   // ---- The training thread's side.
   void WriteOrder(const Order& order);

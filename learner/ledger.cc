@@ -72,8 +72,10 @@ bool Ledger::Merge(const Episode& run, Entry& entry) const {
   std::copy(run.states.begin(), run.states.end(), entry.episode.states.begin() + run.first_transition);
   std::copy(run.actions.begin(), run.actions.end(), entry.episode.actions.begin() + run.first_transition);
   std::copy(run.rewards.begin(), run.rewards.end(), entry.episode.rewards.begin() + run.first_transition);
-  std::copy(run.td_errors.begin(), run.td_errors.end(), entry.episode.td_errors.begin() + run.first_transition);
-  std::copy(run.next_masks.begin(), run.next_masks.end(), entry.episode.next_masks.data() + first * mask_size);
+  std::copy(run.td_errors.begin(), run.td_errors.end(),
+            entry.episode.td_errors.begin() + run.first_transition);
+  std::copy(run.next_masks.begin(), run.next_masks.end(),
+            entry.episode.next_masks.data() + first * mask_size);
   if (run.outcome != Outcome::kFlying) {
     entry.length = static_cast<int>(first + count);
     entry.episode.outcome = run.outcome;

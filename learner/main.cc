@@ -139,7 +139,8 @@ class LearnerProcess {
   void WriteResults() {
     const double wall_s = WallSeconds();
     folder_.WriteFinal(trainer_.current(), trainer_.progress());
-    folder_.WriteSummary(SummaryJson({experiment_, world_, run_id_, trainer_.finished(), wall_s, trainer_, node_.counters()}));
+    folder_.WriteSummary(
+        SummaryJson({experiment_, world_, run_id_, trainer_.finished(), wall_s, trainer_, node_.counters()}));
   }
 
   Experiment experiment_;
@@ -154,7 +155,8 @@ class LearnerProcess {
 
 int Main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app("Trains a DQN from the transitions that actors send over LCM. `fresco train` starts it for you.");
+  CLI::App app(
+      "Trains a DQN from the transitions that actors send over LCM. `fresco train` starts it for you.");
   app.set_version_flag("--version", kSoftwareVersion);
   app.add_option("--config", arguments.config, "Experiment, in text format")->capture_default_str();
   app.add_option("--set", arguments.settings, "Overrides one field: path=value; may be repeated");
@@ -171,8 +173,7 @@ int Main(int argc, char** argv) {
     settings.emplace_back("run.lcm_url", arguments.lcm_url);
   }
   const Experiment experiment = Experiment::Load(arguments.config, settings);
-  const int64_t run_id =
-      arguments.run_id.empty() ? DrawRunId() : ParseRunId(arguments.run_id);
+  const int64_t run_id = arguments.run_id.empty() ? DrawRunId() : ParseRunId(arguments.run_id);
   const std::unique_ptr<Bus> bus = OpenLcmBus(experiment.run().lcm_url());
   spdlog::info("run {:016x}, configuration {:08x}, on {}", static_cast<uint64_t>(run_id), experiment.hash(),
                experiment.run().lcm_url());

@@ -17,12 +17,12 @@ struct MiniBatch {
 
   int size() const { return static_cast<int>(actions.size()); }
 
-  Matrix observations;               ///< [inputs x batch]
-  Matrix next_observations;          ///< [inputs x batch]
+  Matrix observations;       ///< [inputs x batch]
+  Matrix next_observations;  ///< [inputs x batch]
   std::vector<int16_t> actions;
   std::vector<float> rewards;
-  std::vector<uint8_t> terminal;     ///< 1: no next state
-  Matrix next_penalty;               ///< [actions x batch]: 0 where allowed in s', -infinity where not
+  std::vector<uint8_t> terminal;  ///< 1: no next state
+  Matrix next_penalty;            ///< [actions x batch]: 0 where allowed in s', -infinity where not
 };
 
 /// One transition, for inserting.

@@ -7,8 +7,8 @@
 namespace fresco {
 namespace {
 
-constexpr int64_t kGoneUs = 3'000'000;        // an actor that says nothing for so long is forgotten
-constexpr int64_t kSilentUs = 350'000;        // several statuses missed: it gets no orders, its own go to others
+constexpr int64_t kGoneUs = 3'000'000;  // an actor that says nothing for so long is forgotten
+constexpr int64_t kSilentUs = 350'000;  // several statuses missed: it gets no orders, its own go to others
 constexpr int64_t kAnnounceAgainUs = 60'000;  // an order whose result is not here is repeated
 constexpr int64_t kSoonestLateUs = 150'000;
 constexpr double kLateFactor = 4;  // late: several times the usual latency
@@ -62,7 +62,8 @@ int64_t Roster::Choose(int64_t except, int64_t now_us) const {
 bool Roster::IsLate(const Assignment& assignment, int64_t now_us) const {
   const double patience_us = std::max<double>(kSoonestLateUs, kLateFactor * latency_us_);
   return IsSilent(assignment.actor_id, now_us) ||
-         static_cast<double>(now_us - assignment.assigned_us) > patience_us * std::min(1 + assignment.attempt, kLongestPatience);
+         static_cast<double>(now_us - assignment.assigned_us) >
+             patience_us * std::min(1 + assignment.attempt, kLongestPatience);
 }
 
 std::vector<order_t> Roster::DueOrders(const Ledger& ledger, int64_t now_us) {

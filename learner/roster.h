@@ -54,7 +54,7 @@ class Roster {
   bool IsLate(const Assignment& assignment, int64_t now_us) const;
 
   std::map<int64_t, ActorRecord> actors_;
-  std::map<int64_t, int> open_orders_;  // by actor
+  std::map<int64_t, int> open_orders_;         // by actor
   std::map<int64_t, Assignment> assignments_;  // by order index
   int64_t late_orders_ = 0;
   double latency_us_ = 250'000;  // of an order, exponential average

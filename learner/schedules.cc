@@ -29,9 +29,11 @@ double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t trans
   return std::max(linear.minimum(), linear.initial() - linear.decrement() * static_cast<double>(transitions));
 }
 
-double LearningRateOf(const proto::Agent& agent, int64_t updates, int64_t episodes, int64_t expected_updates) {
+double LearningRateOf(const proto::Agent& agent, int64_t updates, int64_t episodes,
+                      int64_t expected_updates) {
   if (agent.has_linear()) {
-    const double progress = std::min(1.0, static_cast<double>(updates) / static_cast<double>(expected_updates));
+    const double progress =
+        std::min(1.0, static_cast<double>(updates) / static_cast<double>(expected_updates));
     return agent.linear().initial() + (agent.linear().final() - agent.linear().initial()) * progress;
   }
   const proto::ExponentialDecay& decay = agent.exponential();

@@ -30,7 +30,8 @@ Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput
       expected_updates_(ExpectedUpdates(experiment.schedule(), world.maximum_transitions())),
       replay_(world.inputs(), world.actions(), experiment.agent().replay_capacity()),
       batch_(world.inputs(), world.actions(), experiment.agent().batch_size()),
-      dqn_(experiment.network_shape(), InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
+      dqn_(experiment.network_shape(),
+           InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
            OptionsOf(experiment.agent())),
       observation_(static_cast<size_t>(world.inputs())),
       next_observation_(static_cast<size_t>(world.inputs())) {}
@@ -49,7 +50,8 @@ void Trainer::Commit(const Order& order, const Episode& episode) {
   if (order.kind == OrderKind::kEvaluate) {
     CommitEvaluation(order, episode);
   } else {
-    Average(static_cast<double>(progress_.updates - updates_at_writing_.at(order.index)), progress_.staleness_updates);
+    Average(static_cast<double>(progress_.updates - updates_at_writing_.at(order.index)),
+            progress_.staleness_updates);
     CommitTraining(episode);
   }
   updates_at_writing_.erase(order.index);
@@ -104,7 +106,8 @@ void Trainer::UpdateOnce() {
 void Trainer::CopyToTarget() {
   dqn_.CopyToTarget();
   ++progress_.target_version;
-  output_.version(NetworkKind::kTarget, progress_.target_version, std::make_shared<const Vector>(dqn_.target()));
+  output_.version(NetworkKind::kTarget, progress_.target_version,
+                  std::make_shared<const Vector>(dqn_.target()));
 }
 
 void Trainer::MakeVersion() {

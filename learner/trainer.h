@@ -46,9 +46,9 @@ struct TrainerProgress {
   int64_t replay_size = 0;
   int32_t current_version = 0;
   int32_t target_version = 0;
-  double epsilon = 0;        ///< of the newest training order
-  double learning_rate = 0;  ///< of the newest update
-  double loss = 0;           ///< exponential average over about 100 updates
+  double epsilon = 0;            ///< of the newest training order
+  double learning_rate = 0;      ///< of the newest update
+  double loss = 0;               ///< exponential average over about 100 updates
   double staleness_updates = 0;  ///< from an order's writing to its commitment, exponential average
 };
 
@@ -106,8 +106,8 @@ class Trainer {
   std::vector<float> observation_;
   std::vector<float> next_observation_;
   TrainerProgress progress_;
-  int64_t next_index_ = 0;             // of the next order to write
-  int64_t training_orders_ = 0;        // written
+  int64_t next_index_ = 0;       // of the next order to write
+  int64_t training_orders_ = 0;  // written
   bool evaluation_due_ = false;
   Version newest_;
   std::map<int64_t, Version> evaluating_;          // by index of the evaluation order

@@ -35,7 +35,8 @@ void WeightPublisher::Request(const chunk_range_t& range, int64_t now_us) {
     return;
   }
   Version& version = found->second;
-  const int64_t end = std::min<int64_t>(int64_t{range.first} + range.count, static_cast<int64_t>(version.due.size()));
+  const int64_t end =
+      std::min<int64_t>(int64_t{range.first} + range.count, static_cast<int64_t>(version.due.size()));
   for (int64_t chunk = range.first; chunk < end; ++chunk) {
     const auto i = static_cast<size_t>(chunk);
     if (version.due[i] == 0 && now_us - version.sent_us[i] >= kAnswerAgainUs) {

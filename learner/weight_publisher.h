@@ -37,8 +37,8 @@ class WeightPublisher {
   struct Version {
     std::shared_ptr<const Vector> parameters;
     uint32_t crc32c = 0;
-    std::vector<uint8_t> due;       // by chunk
-    std::vector<int64_t> sent_us;   // by chunk; 0: never
+    std::vector<uint8_t> due;      // by chunk
+    std::vector<int64_t> sent_us;  // by chunk; 0: never
     int due_count = 0;
     int next = 0;  // where to look for the next due chunk
   };

@@ -13,8 +13,9 @@ Channels ChannelsWithPrefix(const std::string& prefix) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
   if (prefix.empty() || prefix.size() > kMaximumLength || !valid) {
-    throw UsageError("run.channel_prefix: \"" + prefix +
-                     "\" is not a channel prefix; allowed: 1 to 40 letters, digits, '_' and '-', e.g. FRESCO");
+    throw UsageError(
+        "run.channel_prefix: \"" + prefix +
+        "\" is not a channel prefix; allowed: 1 to 40 letters, digits, '_' and '-', e.g. FRESCO");
   }
   return {prefix + "_RUN",
           prefix + "_ORDERS",

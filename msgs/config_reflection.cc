@@ -29,17 +29,22 @@ std::string JoinPath(const std::string& path, const std::string& name) {
 void FillScalar(Message& message, const FieldDescriptor& field) {
   const Reflection& reflection = *message.GetReflection();
   switch (field.cpp_type()) {
-    case FieldDescriptor::CPPTYPE_INT32: return reflection.SetInt32(&message, &field, field.default_value_int32());
-    case FieldDescriptor::CPPTYPE_INT64: return reflection.SetInt64(&message, &field, field.default_value_int64());
+    case FieldDescriptor::CPPTYPE_INT32:
+      return reflection.SetInt32(&message, &field, field.default_value_int32());
+    case FieldDescriptor::CPPTYPE_INT64:
+      return reflection.SetInt64(&message, &field, field.default_value_int64());
     case FieldDescriptor::CPPTYPE_UINT64:
       return reflection.SetUInt64(&message, &field, field.default_value_uint64());
     case FieldDescriptor::CPPTYPE_DOUBLE:
       return reflection.SetDouble(&message, &field, field.default_value_double());
-    case FieldDescriptor::CPPTYPE_BOOL: return reflection.SetBool(&message, &field, field.default_value_bool());
-    case FieldDescriptor::CPPTYPE_ENUM: return reflection.SetEnum(&message, &field, field.default_value_enum());
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return reflection.SetBool(&message, &field, field.default_value_bool());
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return reflection.SetEnum(&message, &field, field.default_value_enum());
     case FieldDescriptor::CPPTYPE_STRING:
       return reflection.SetString(&message, &field, field.default_value_string());
-    default: return;
+    default:
+      return;
   }
 }
 
@@ -49,12 +54,14 @@ double NumericValue(const Message& message, const FieldDescriptor& field, int in
   const bool repeated = index >= 0;
   switch (field.cpp_type()) {
     case FieldDescriptor::CPPTYPE_INT32:
-      return repeated ? reflection.GetRepeatedInt32(message, &field, index) : reflection.GetInt32(message, &field);
+      return repeated ? reflection.GetRepeatedInt32(message, &field, index)
+                      : reflection.GetInt32(message, &field);
     case FieldDescriptor::CPPTYPE_INT64:
       return static_cast<double>(repeated ? reflection.GetRepeatedInt64(message, &field, index)
                                           : reflection.GetInt64(message, &field));
     default:
-      return repeated ? reflection.GetRepeatedDouble(message, &field, index) : reflection.GetDouble(message, &field);
+      return repeated ? reflection.GetRepeatedDouble(message, &field, index)
+                      : reflection.GetDouble(message, &field);
   }
 }
 
@@ -88,15 +95,18 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
   return part;
 }
 
-[[noreturn]] void ThrowUnknownField(const Descriptor& descriptor, const std::string& name, const std::string& path) {
+[[noreturn]] void ThrowUnknownField(const Descriptor& descriptor, const std::string& name,
+                                    const std::string& path) {
   std::string known;
   for (int i = 0; i < descriptor.field_count(); ++i) {
     known += (i == 0 ? "" : ", ") + descriptor.field(i)->name();
   }
-  throw UsageError(fmt::format("--set {}: there is no field \"{}\"; {} has: {}", path, name, descriptor.name(), known));
+  throw UsageError(
+      fmt::format("--set {}: there is no field \"{}\"; {} has: {}", path, name, descriptor.name(), known));
 }
 
-void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& path, const std::string& value) {
+void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& path,
+             const std::string& value) {
   const bool quoted = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !value.starts_with('"');
   message.GetReflection()->ClearField(&message, &field);
   const std::string text = field.is_repeated() ? "[" + value + "]" : quoted ? "\"" + value + "\"" : value;
@@ -112,7 +122,8 @@ void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& 
   }
 }
 
-void SetFieldBelow(Message& message, const std::string& rest, const std::string& path, const std::string& value) {
+void SetFieldBelow(Message& message, const std::string& rest, const std::string& path,
+                   const std::string& value) {
   const size_t dot = rest.find('.');
   const PathPart part = ParsePathPart(rest.substr(0, dot), path);
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(part.name);
@@ -125,7 +136,8 @@ void SetFieldBelow(Message& message, const std::string& rest, const std::string&
   const Reflection& reflection = *message.GetReflection();
   if (!IsMessage(*field) || field->is_repeated() != (part.index >= 0) ||
       (field->is_repeated() && part.index >= reflection.FieldSize(message, field))) {
-    throw UsageError(fmt::format("--set {}: \"{}\" has no parts, or no such index", path, rest.substr(0, dot)));
+    throw UsageError(
+        fmt::format("--set {}: \"{}\" has no parts, or no such index", path, rest.substr(0, dot)));
   }
   Message* below = field->is_repeated() ? reflection.MutableRepeatedMessage(&message, field, part.index)
                                         : reflection.MutableMessage(&message, field);

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "msgs/wire.h"
-#include "uav/world.h"
 #include "uav/environment.h"
+#include "uav/world.h"
 
 namespace fresco {
 
 /// Transition i goes from states[i] to states[i + 1].
 struct Episode {
   int64_t order_index = 0;
-  int32_t first_transition = 0;  ///< 0 for a whole episode
+  int32_t first_transition = 0;        ///< 0 for a whole episode
   Outcome outcome = Outcome::kFlying;  ///< other than kFlying: the last transition is terminal
   std::vector<State> states;           ///< transitions + 1
   std::vector<int16_t> actions;
@@ -28,7 +28,9 @@ struct Episode {
 };
 
 /// Bytes of one mask over the world's actions.
-inline int MaskSize(const World& world) { return (world.actions() + 7) / 8; }
+inline int MaskSize(const World& world) {
+  return (world.actions() + 7) / 8;
+}
 
 /// Transitions that fit one message for this many sensors; at least 1 for up to kMaximumSensors.
 int TransitionsPerMessage(int sensors);

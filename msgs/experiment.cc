@@ -90,16 +90,22 @@ void FillAgentAndSchedule(proto::ExperimentConfig& config) {
 
 void CheckAlternatives(const proto::ExperimentConfig& config, const std::string& origin) {
   if (config.scenario().has_random_sensors() && !config.scenario().sensor().empty()) {
-    throw UsageError(fmt::format(
-        "{}: scenario.sensor ({} given) and scenario.random_sensors contradict each other; allowed: one of the two",
-        origin, config.scenario().sensor_size()));
+    throw UsageError(
+        fmt::format("{}: scenario.sensor ({} given) and scenario.random_sensors contradict each other; "
+                    "allowed: one of the two",
+                    origin, config.scenario().sensor_size()));
   }
 }
 
 Rotor ToRotor(const proto::Rotor& rotor) {
-  return {rotor.blade_profile_power_w(), rotor.induced_power_w(),  rotor.tip_speed_mps(),
-          rotor.induced_velocity_mps(),  rotor.drag_ratio(),       rotor.air_density_kgpm3(),
-          rotor.solidity(),              rotor.disk_area_m2()};
+  return {rotor.blade_profile_power_w(),
+          rotor.induced_power_w(),
+          rotor.tip_speed_mps(),
+          rotor.induced_velocity_mps(),
+          rotor.drag_ratio(),
+          rotor.air_density_kgpm3(),
+          rotor.solidity(),
+          rotor.disk_area_m2()};
 }
 
 Scenario ToScenario(const proto::Scenario& from) {
@@ -137,9 +143,10 @@ Scenario CheckedScenario(const proto::Scenario& from) {
   Scenario scenario = ToScenario(from);
   const World checked(scenario);
   if (checked.sensors() > kMaximumSensors) {
-    throw UsageError(fmt::format("scenario.sensor: {} sensors; allowed: 1 to {} (a transition must fit one "
-                                 "Ethernet frame)",
-                                 checked.sensors(), kMaximumSensors));
+    throw UsageError(
+        fmt::format("scenario.sensor: {} sensors; allowed: 1 to {} (a transition must fit one "
+                    "Ethernet frame)",
+                    checked.sensors(), kMaximumSensors));
   }
   return scenario;
 }

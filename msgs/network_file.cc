@@ -22,7 +22,8 @@ void Expect(bool condition, const std::filesystem::path& path, const std::string
   }
 }
 
-Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const std::filesystem::path& path) {
+Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape,
+                    const std::filesystem::path& path) {
   const size_t expected = static_cast<size_t>(shape.parameter_count()) * sizeof(float);
   Expect(std::equal(file.layer_sizes().begin(), file.layer_sizes().end(), shape.layer_sizes().begin(),
                     shape.layer_sizes().end()),
@@ -45,7 +46,8 @@ void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& ne
   for (const int size : shape.layer_sizes()) {
     file.add_layer_sizes(size);
   }
-  const std::span<const float> values(network.parameters.data(), static_cast<size_t>(network.parameters.size()));
+  const std::span<const float> values(network.parameters.data(),
+                                      static_cast<size_t>(network.parameters.size()));
   file.set_parameters(values.data(), values.size_bytes());
   file.set_crc32c(Crc32c(values));
   file.set_version(network.version);
@@ -58,8 +60,9 @@ void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& ne
 
 StoredNetwork ReadNetworkFile(const std::filesystem::path& path) {
   proto::NetworkFile file;
-  Expect(file.ParseFromString(ReadFile(path)) && file.has_format(), path,
-         "not a network file of Fresco, or cut short; expected best.network or final.network of a run's folder");
+  Expect(
+      file.ParseFromString(ReadFile(path)) && file.has_format(), path,
+      "not a network file of Fresco, or cut short; expected best.network or final.network of a run's folder");
   Expect(file.format() == kFormat, path, fmt::format("expected format {}, found {}", kFormat, file.format()));
   Experiment experiment = Experiment::Parse(file.config_text(), path.string() + " (its configuration)");
   const MlpShape shape = experiment.network_shape();

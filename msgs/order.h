@@ -37,8 +37,8 @@ inline order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
 
 /// False where a value is out of range.
 inline bool FromWire(const order_t& wire, Order& order) {
-  order = {wire.index,   static_cast<OrderKind>(wire.kind),
-           wire.epsilon, static_cast<uint64_t>(wire.seed),
+  order = {wire.index,           static_cast<OrderKind>(wire.kind),
+           wire.epsilon,         static_cast<uint64_t>(wire.seed),
            wire.current_version, wire.target_version};
   return wire.index >= 0 && wire.index < (int64_t{1} << 32) && (wire.kind == 0 || wire.kind == 1) &&
          wire.epsilon >= 0 && wire.epsilon <= 1 && wire.current_version >= 0 && wire.target_version >= 0 &&

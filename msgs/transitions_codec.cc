@@ -49,7 +49,8 @@ transitions_t MessageOf(const World& world, const Episode& episode, int first, i
   message.mask_size = MaskSize(world);
   message.order_index = episode.order_index;
   message.first_transition = first;
-  message.outcome = static_cast<int8_t>(first + count == episode.transitions() ? episode.outcome : Outcome::kFlying);
+  message.outcome =
+      static_cast<int8_t>(first + count == episode.transitions() ? episode.outcome : Outcome::kFlying);
   for (int i = first; i <= first + count; ++i) {
     AddState(episode.states[static_cast<size_t>(i)], message);
   }

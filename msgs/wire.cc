@@ -1,6 +1,7 @@
 #include "msgs/wire.h"
 
 #include "core/check.h"
+#include "core/crc32c.h"
 
 namespace fresco {
 namespace {
@@ -18,24 +19,37 @@ int32_t BigEndianInt32(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-bool CountsAreAllowed(std::span<const std::byte> message, std::initializer_list<int32_t> maxima) {
+std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes) {
+  if (bytes.size() < kTrailerBytes || bytes.size() > kMaximumMessageBytes) {
+    return {};
+  }
+  const auto encoding = bytes.first(bytes.size() - kTrailerBytes);
+  const bool holds = Crc32c(encoding) == static_cast<uint32_t>(BigEndianInt32(bytes.last(kTrailerBytes)));
+  return holds ? encoding : std::span<const std::byte>{};
+}
+
+void AppendTrailer(int encoded, std::vector<std::byte>& bytes) {
+  FRESCO_CHECK(encoded == static_cast<int>(bytes.size()));
+  FRESCO_CHECK(bytes.size() <= kMaximumEncodedBytes);
+  const uint32_t crc = Crc32c(bytes);
+  for (const int shift : {24, 16, 8, 0}) {
+    bytes.push_back(static_cast<std::byte>(crc >> shift));
+  }
+}
+
+bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list<int32_t> maxima) {
   size_t offset = kFingerprintBytes + kIdentityBytes;
-  if (message.size() > kMaximumMessageBytes || message.size() < offset + maxima.size() * sizeof(int32_t)) {
+  if (encoding.size() < offset + maxima.size() * sizeof(int32_t)) {
     return false;
   }
   for (const int32_t maximum : maxima) {
-    const int32_t count = BigEndianInt32(message.subspan(offset, sizeof(int32_t)));
+    const int32_t count = BigEndianInt32(encoding.subspan(offset, sizeof(int32_t)));
     if (count < 0 || count > maximum) {
       return false;
     }
     offset += sizeof(int32_t);
   }
   return true;
-}
-
-void CheckEncoded(int encoded, size_t size) {
-  FRESCO_CHECK(encoded == static_cast<int>(size));
-  FRESCO_CHECK(size <= kMaximumEncodedBytes);
 }
 
 }  // namespace fresco

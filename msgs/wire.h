@@ -24,8 +24,11 @@ inline constexpr int32_t kProtocolVersion = 1;
 
 /// Every message fits one Ethernet frame: LCM loses a whole message with one lost fragment.
 inline constexpr size_t kMaximumMessageBytes = 1350;
-/// Kept free in every message for a trailer (message authentication); LCM's decoders ignore it.
+/// Kept free in every message for a trailer behind LCM's encoding, which LCM's own decoders ignore.
+/// Today it is the CRC-32C of the encoding, big-endian: UDP's checksum lets too much through for a
+/// promise about bits. The rest is room for message authentication.
 inline constexpr size_t kReservedTrailerBytes = 48;
+inline constexpr size_t kTrailerBytes = sizeof(uint32_t);
 inline constexpr size_t kMaximumEncodedBytes = kMaximumMessageBytes - kReservedTrailerBytes;
 
 inline constexpr int kMaximumOrdersPerMessage = 27;
@@ -69,27 +72,38 @@ inline std::initializer_list<int32_t> CountMaxima(const learner_status_t&) {
   return {};
 }
 
-/// Whether the counts in the encoded message lie in 0 .. maxima and the size is allowed.
-bool CountsAreAllowed(std::span<const std::byte> message, std::initializer_list<int32_t> maxima);
+/// LCM's encoding without the trailer; empty where the size is not allowed or the CRC does not hold.
+std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes);
 
-/// Decodes a message; false where it is of another type, malformed, oversized or longer than its
-/// content. Never throws, never allocates more than the limits allow.
+/// CHECKs that LCM encoded `encoded` bytes of the expected size, and appends the trailer.
+void AppendTrailer(int encoded, std::vector<std::byte>& bytes);
+
+/// Whether the counts in the encoding lie in 0 .. maxima.
+bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list<int32_t> maxima);
+
+/// Decodes a message; false where it is corrupt, of another type, malformed, oversized or longer
+/// than its content. Never throws, never allocates more than the limits allow.
 template <class Message>
 bool Decode(std::span<const std::byte> bytes, Message& message) {
-  if (!CountsAreAllowed(bytes, CountMaxima(message))) {
+  const std::span<const std::byte> encoding = WithoutTrailer(bytes);
+  if (!CountsAreAllowed(encoding, CountMaxima(message))) {
     return false;
   }
   try {
-    const int size = static_cast<int>(bytes.size());
-    return message.decode(bytes.data(), 0, size) == size;
+    const int size = static_cast<int>(encoding.size());
+    return message.decode(encoding.data(), 0, size) == size;
   } catch (const std::exception&) {  // a string of negative length, say
     return false;
   }
 }
 
-/// Replaces `bytes` by the encoded message. CHECKs that it fits kMaximumEncodedBytes.
+/// Replaces `bytes` by the encoded message and its trailer. CHECKs that the encoding fits
+/// kMaximumEncodedBytes.
 template <class Message>
-void Encode(const Message& message, std::vector<std::byte>& bytes);
+void Encode(const Message& message, std::vector<std::byte>& bytes) {
+  bytes.resize(static_cast<size_t>(message.getEncodedSize()));
+  AppendTrailer(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())), bytes);
+}
 
 /// Sets utime to now, and the identity.
 template <class Message>
@@ -102,14 +116,6 @@ void Stamp(Message& message, RunIdentity identity, int64_t utime) {
 template <class Message>
 RunIdentity IdentityOf(const Message& message) {
   return {message.run_id, static_cast<uint32_t>(message.config_hash)};
-}
-
-void CheckEncoded(int encoded, size_t size);
-
-template <class Message>
-void Encode(const Message& message, std::vector<std::byte>& bytes) {
-  bytes.resize(static_cast<size_t>(message.getEncodedSize()));
-  CheckEncoded(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())), bytes.size());
 }
 
 }  // namespace fresco

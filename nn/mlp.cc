@@ -91,9 +91,10 @@ void Mlp::Backward(std::span<const float> parameters, int batch, const Matrix& o
   for (int layer = shape_.layers() - 1; layer >= 0; --layer) {
     const auto above = gradients[static_cast<size_t>(layer) + 1].leftCols(batch);
     const auto below = workspace.activations_[static_cast<size_t>(layer)].leftCols(batch);
-    Eigen::Map<Matrix> weights_gradient(gradient.data() + shape_.weights_offset(layer), shape_.layer_outputs(layer),
-                                        shape_.layer_inputs(layer));
-    Eigen::Map<Vector> biases_gradient(gradient.data() + shape_.biases_offset(layer), shape_.layer_outputs(layer));
+    Eigen::Map<Matrix> weights_gradient(gradient.data() + shape_.weights_offset(layer),
+                                        shape_.layer_outputs(layer), shape_.layer_inputs(layer));
+    Eigen::Map<Vector> biases_gradient(gradient.data() + shape_.biases_offset(layer),
+                                       shape_.layer_outputs(layer));
     weights_gradient.noalias() = above * below.transpose();
     biases_gradient = above.col(0);
     for (int column = 1; column < batch; ++column) {

@@ -63,7 +63,7 @@ class MlpWorkspace {
  private:
   friend class Mlp;
   std::vector<Matrix> activations_;  // [0] the input, [l + 1] the output of layer l
-  std::vector<Matrix> gradients_;    // d loss / d (output of layer l before ReLU); sized by the first Backward
+  std::vector<Matrix> gradients_;  // d loss / d (output of layer l before ReLU); sized by the first Backward
 };
 
 /// The network's arithmetic; holds no parameters of its own.

@@ -27,7 +27,8 @@ std::filesystem::path NetworkPath(const std::string& policy) {
   const std::filesystem::path path(policy);
   if (!std::filesystem::exists(path)) {
     throw UsageError(fmt::format(
-        "--policy: expected aoi, distance, a run's folder or a network file; \"{}\" is none of them", policy));
+        "--policy: expected aoi, distance, a run's folder or a network file; \"{}\" is none of them",
+        policy));
   }
   return std::filesystem::is_directory(path) ? path / "best.network" : path;
 }
@@ -49,13 +50,15 @@ Flight FlyPolicy(const EvaluateOptions& options, std::optional<Experiment>& expe
   std::optional<StoredNetwork> network;
   if (!baseline) {
     network = ReadNetworkFile(NetworkPath(options.policy));
-    experiment = Experiment::Parse(network->experiment.Text(), options.policy, ParseSettings(options.settings));
+    experiment =
+        Experiment::Parse(network->experiment.Text(), options.policy, ParseSettings(options.settings));
   }
   if (baseline || !options.config.empty()) {
     const std::string config = options.config.empty() ? DefaultConfigPath() : options.config;
     Experiment given = Experiment::Load(config, ParseSettings(options.settings));
     if (network && given.network_shape().layer_sizes() != network->experiment.network_shape().layer_sizes()) {
-      throw UsageError(fmt::format("{}: its network (sensors, hidden layers) is not that of {}", config, options.policy));
+      throw UsageError(
+          fmt::format("{}: its network (sensors, hidden layers) is not that of {}", config, options.policy));
     }
     experiment = std::move(given);
   }
@@ -94,9 +97,11 @@ int Evaluate(const EvaluateOptions& options) {
 void AddEvaluate(CLI::App& app, Command& command) {
   auto options = std::make_shared<EvaluateOptions>();
   CLI::App* evaluate = app.add_subcommand("evaluate", "Fly one episode greedily and show it slot by slot");
-  evaluate->add_option("--config", options->config, "Experiment; default: that of the trained policy, or quick.textproto");
+  evaluate->add_option("--config", options->config,
+                       "Experiment; default: that of the trained policy, or quick.textproto");
   evaluate->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
-  evaluate->add_option("--policy", options->policy, "aoi, distance, a run's folder or a network file")->required();
+  evaluate->add_option("--policy", options->policy, "aoi, distance, a run's folder or a network file")
+      ->required();
   evaluate->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   evaluate->callback([options, &command] { command = [options] { return Evaluate(*options); }; });
 }

@@ -14,7 +14,8 @@ std::filesystem::path OwnDirectory() {
 std::filesystem::path SiblingProgram(const std::string& name) {
   const std::filesystem::path path = OwnDirectory() / name;
   if (!std::filesystem::exists(path)) {
-    throw UsageError("expected the program " + path.string() + " beside this one; build or install all of Fresco");
+    throw UsageError("expected the program " + path.string() +
+                     " beside this one; build or install all of Fresco");
   }
   return path;
 }

@@ -117,19 +117,30 @@ class TrainSupervisor {
       throw UsageError(fmt::format("--out: can't make the folder {}: {}", folder_.string(), error.message()));
     }
     if (std::filesystem::exists(folder_ / "summary.json")) {
-      throw UsageError(fmt::format("--out: {} holds another run's results; name a new folder", folder_.string()));
+      throw UsageError(
+          fmt::format("--out: {} holds another run's results; name a new folder", folder_.string()));
     }
     WriteFileAtomically(folder_ / "config.textproto", experiment_.Text());
   }
 
   std::vector<std::string> LearnerArguments() const {
-    return {SiblingProgram("fresco-learner").string(), "--config", (folder_ / "config.textproto").string(),
-            "--out", folder_.string(), "--run-id", run_id_};
+    return {SiblingProgram("fresco-learner").string(),
+            "--config",
+            (folder_ / "config.textproto").string(),
+            "--out",
+            folder_.string(),
+            "--run-id",
+            run_id_};
   }
 
   std::vector<std::string> ActorArguments() const {
-    return {SiblingProgram("fresco-actor").string(), "--lcm-url", experiment_.run().lcm_url(),
-            "--channel-prefix", experiment_.run().channel_prefix(), "--run-id", run_id_};
+    return {SiblingProgram("fresco-actor").string(),
+            "--lcm-url",
+            experiment_.run().lcm_url(),
+            "--channel-prefix",
+            experiment_.run().channel_prefix(),
+            "--run-id",
+            run_id_};
   }
 
   void KeepActorsAlive() {
@@ -188,7 +199,8 @@ class TrainSupervisor {
 
 int Train(const TrainOptions& options) {
   const Experiment experiment = LoadExperiment(options);
-  const std::filesystem::path folder = options.out.empty() ? DefaultFolder() : std::filesystem::path(options.out);
+  const std::filesystem::path folder =
+      options.out.empty() ? DefaultFolder() : std::filesystem::path(options.out);
   const bool text = options.format == "text";
   if (text) {
     fmt::print("training over {} with {} local actors; results go to {}\n", experiment.run().lcm_url(),
@@ -197,8 +209,9 @@ int Train(const TrainOptions& options) {
   }
   const int status = TrainSupervisor(experiment, folder, true).Run();
   if (!std::filesystem::exists(folder / "summary.json")) {
-    throw Error(status == 2 ? ErrorKind::kUsage : ErrorKind::kFailure,
-                "the learner ended without results; its log ends with:" + LastLines(folder / "learner.log", 3));
+    throw Error(
+        status == 2 ? ErrorKind::kUsage : ErrorKind::kFailure,
+        "the learner ended without results; its log ends with:" + LastLines(folder / "learner.log", 3));
   }
   const std::string summary = ReadFile(folder / "summary.json");
   fmt::print("{}", text ? ResultTable(summary) : summary);
@@ -214,7 +227,8 @@ int Train(const TrainOptions& options) {
 
 void AddTrain(CLI::App& app, Command& command) {
   auto options = std::make_shared<TrainOptions>();
-  CLI::App* train = app.add_subcommand("train", "Train over LCM: one learner, several actors, and a table at the end");
+  CLI::App* train =
+      app.add_subcommand("train", "Train over LCM: one learner, several actors, and a table at the end");
   train->add_option("--config", options->config, "Experiment; default: configs/quick.textproto");
   train->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
   train->add_option("--actors", options->actors, "Local actor processes; 0: wait for actors that join")

@@ -21,22 +21,26 @@ std::string Row(const std::string& name, const nlohmann::json& figures) {
     return fmt::format("  {:<16} {:>12} {:>10}  {}\n", name, "-", "-", "not evaluated");
   }
   return fmt::format("  {:<16} {:>12.3f} {:>10}  {}\n", name, figures.at("average_aoi").get<double>(),
-                     figures.at("total_aoi").get<int64_t>(), figures.at("arrived").get<bool>() ? "yes" : "NO");
+                     figures.at("total_aoi").get<int64_t>(),
+                     figures.at("arrived").get<bool>() ? "yes" : "NO");
 }
 
 }  // namespace
 
 std::string ProgressLine(const learner_status_t& status) {
-  const double percent = 100.0 * static_cast<double>(status.episodes) / static_cast<double>(std::max<int64_t>(1, status.total_episodes));
-  const std::string aoi = std::isnan(status.average_aoi)
-                              ? "-"
-                              : fmt::format("{:.3f}{}", status.average_aoi, status.arrived != 0 ? "" : " (not arrived)");
-  return fmt::format("{:3.0f}% | {} of {} episodes | {} updates | epsilon {:.3f} | greedy AoI {} | {:.0f} transitions/s | "
-                     "{:.0f} updates/s | {} actors{}",
-                     percent, status.episodes, status.total_episodes, status.updates, status.epsilon, aoi,
-                     status.transitions_per_s, status.updates_per_s, status.actors,
-                     status.waiting_for.empty() ? " | actors wait for the learner"
-                                                : " | learner waits for " + status.waiting_for);
+  const double percent = 100.0 * static_cast<double>(status.episodes) /
+                         static_cast<double>(std::max<int64_t>(1, status.total_episodes));
+  const std::string aoi =
+      std::isnan(status.average_aoi)
+          ? "-"
+          : fmt::format("{:.3f}{}", status.average_aoi, status.arrived != 0 ? "" : " (not arrived)");
+  return fmt::format(
+      "{:3.0f}% | {} of {} episodes | {} updates | epsilon {:.3f} | greedy AoI {} | {:.0f} transitions/s | "
+      "{:.0f} updates/s | {} actors{}",
+      percent, status.episodes, status.total_episodes, status.updates, status.epsilon, aoi,
+      status.transitions_per_s, status.updates_per_s, status.actors,
+      status.waiting_for.empty() ? " | actors wait for the learner"
+                                 : " | learner waits for " + status.waiting_for);
 }
 
 ProgressDisplay::ProgressDisplay(bool enabled) : enabled_(enabled), terminal_(isatty(STDERR_FILENO) == 1) {}
@@ -70,7 +74,8 @@ void ProgressDisplay::Finish() {
 
 std::string ResultTable(const std::string& summary_json) {
   const auto summary = nlohmann::json::parse(summary_json);
-  std::string table = fmt::format("  {:<16} {:>12} {:>10}  {}\n", "policy", "average AoI", "total AoI", "arrived");
+  std::string table =
+      fmt::format("  {:<16} {:>12} {:>10}  {}\n", "policy", "average AoI", "total AoI", "arrived");
   table += Row("this run (DQN)", summary);
   table += Row("AoI-based", summary.at("baselines").at("aoi"));
   table += Row("distance-based", summary.at("baselines").at("distance"));

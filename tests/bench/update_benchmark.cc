@@ -54,7 +54,8 @@ void Update(benchmark::State& state, bool double_dqn) {
     memory.Sample(stream, batch);
     benchmark::DoNotOptimize(dqn.Update(batch, 1e-4));
   }
-  state.counters["updates/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["updates/s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 /// The matrix products of one update: `forward_passes` forward, one backward without the gradient
@@ -83,7 +84,8 @@ void Products(benchmark::State& state, int forward_passes) {
     benchmark::DoNotOptimize(weight_gradients[0].data());
     benchmark::ClobberMemory();
   }
-  state.counters["updates/s"] = benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["updates/s"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 // Two forward passes: Q(s, a) and the target network in s'. Double DQN adds the current network in s'.
@@ -111,8 +113,8 @@ class ShareReporter : public benchmark::ConsoleReporter {
       const auto update = seconds_.find("Update/" + name);
       const auto products = seconds_.find("Products/" + name);
       if (update != seconds_.end() && products != seconds_.end()) {
-        std::printf("%-10s: an update runs at %.0f %% of the speed of its matrix products alone\n", name.c_str(),
-                    100 * products->second / update->second);
+        std::printf("%-10s: an update runs at %.0f %% of the speed of its matrix products alone\n",
+                    name.c_str(), 100 * products->second / update->second);
       }
     }
   }

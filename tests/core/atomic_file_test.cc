@@ -12,7 +12,8 @@ namespace {
 
 class AtomicFile : public ::testing::Test {
  protected:
-  AtomicFile() : directory_(std::filesystem::temp_directory_path() / ("fresco-atomic-" + std::to_string(getpid()))) {
+  AtomicFile()
+      : directory_(std::filesystem::temp_directory_path() / ("fresco-atomic-" + std::to_string(getpid()))) {
     std::filesystem::create_directories(directory_);
   }
   ~AtomicFile() override { std::filesystem::remove_all(directory_); }

@@ -22,7 +22,8 @@ TEST(Philox, MatchesTheKnownAnswersOfRandom123) {
 TEST(RandomStream, IsTheSequenceOfPhiloxBlocksOfItsKey) {
   RandomStream stream(0x0000000200000001u, RandomPurpose::kTest, 7, 9);
   for (uint32_t block = 0; block < 3; ++block) {
-    for (const uint32_t word : Philox4x32({block, 9, 7, static_cast<uint32_t>(RandomPurpose::kTest)}, {1, 2})) {
+    for (const uint32_t word :
+         Philox4x32({block, 9, 7, static_cast<uint32_t>(RandomPurpose::kTest)}, {1, 2})) {
       EXPECT_EQ(stream.NextWord(), word);
     }
   }

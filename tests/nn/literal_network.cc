@@ -4,7 +4,8 @@
 
 namespace fresco {
 
-Doubles LiteralForward(const std::vector<int>& layer_sizes, const Doubles& parameters, const Doubles& observation) {
+Doubles LiteralForward(const std::vector<int>& layer_sizes, const Doubles& parameters,
+                       const Doubles& observation) {
   Doubles below = observation;
   size_t offset = 0;
   for (size_t layer = 0; layer + 1 < layer_sizes.size(); ++layer) {

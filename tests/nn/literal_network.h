@@ -11,7 +11,8 @@ namespace fresco {
 using Doubles = std::vector<double>;
 
 /// Outputs for one observation.
-Doubles LiteralForward(const std::vector<int>& layer_sizes, const Doubles& parameters, const Doubles& observation);
+Doubles LiteralForward(const std::vector<int>& layer_sizes, const Doubles& parameters,
+                       const Doubles& observation);
 
 /// Uniform values in [-bound, bound).
 std::vector<float> RandomFloats(RandomStream& stream, size_t count, double bound);

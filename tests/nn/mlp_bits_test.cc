@@ -59,7 +59,8 @@ TEST_P(MlpBits, AreThoseOfTheObservationAloneInBatchesOfEveryWidth) {
     }
     mlp_.Forward(SpanOf(parameters_), width, workspace);
     for (int column = 0; column < width; ++column) {
-      ASSERT_EQ(OutputBits(workspace, column), alone_[static_cast<size_t>(column)]) << width << ", " << column;
+      ASSERT_EQ(OutputBits(workspace, column), alone_[static_cast<size_t>(column)])
+          << width << ", " << column;
     }
   }
 }
@@ -73,7 +74,8 @@ TEST_P(MlpBits, DoNotDependOnTheColumnTheCompanyOrTheWorkspace) {
     }
     const int place = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(members.size())));
     const int capacity = static_cast<int>(members.size() + stream.NextBelow(100));
-    EXPECT_EQ(Forward(members, capacity, place), alone_[static_cast<size_t>(members[static_cast<size_t>(place)])]);
+    EXPECT_EQ(Forward(members, capacity, place),
+              alone_[static_cast<size_t>(members[static_cast<size_t>(place)])]);
   }
 }
 

@@ -1,0 +1,160 @@
+#include "tests/msgs/message_samples.h"
+
+#include <concepts>
+#include <cstdint>
+#include <string>
+
+namespace fresco {
+namespace {
+
+template <class T>
+void Fill(RandomStream& stream, T& value) {
+  if constexpr (std::floating_point<T>) {
+    value = static_cast<T>(2000 * stream.NextUniform() - 1000);
+  } else {
+    value = static_cast<T>((uint64_t{stream.NextWord()} << 32) | stream.NextWord());
+  }
+}
+
+template <class T>
+void Fill(RandomStream& stream, std::vector<T>& values, int count) {
+  values.resize(static_cast<size_t>(count));
+  for (T& value : values) {
+    Fill(stream, value);
+  }
+}
+
+template <class... T>
+void FillAll(RandomStream& stream, T&... values) {
+  (Fill(stream, values), ...);
+}
+
+std::string RandomText(RandomStream& stream, int length) {
+  std::string text;
+  for (int i = 0; i < length; ++i) {
+    text += static_cast<char>('a' + stream.NextBelow(26));
+  }
+  return text;
+}
+
+int Below(RandomStream& stream, int bound) {
+  return static_cast<int>(stream.NextBelow(static_cast<uint32_t>(bound)));
+}
+
+template <class Message>
+Message Identified(RandomStream& stream) {
+  Message message{};
+  FillAll(stream, message.utime, message.run_id, message.config_hash);
+  return message;
+}
+
+std::vector<chunk_range_t> RangesOf(RandomStream& stream, int count) {
+  std::vector<chunk_range_t> ranges(static_cast<size_t>(count));
+  for (chunk_range_t& range : ranges) {
+    FillAll(stream, range.network, range.version, range.first, range.count);
+  }
+  return ranges;
+}
+
+}  // namespace
+
+orders_t OrdersOf(RandomStream& stream, int orders) {
+  auto message = Identified<orders_t>(stream);
+  Fill(stream, message.committed_orders);
+  message.order_count = orders;
+  message.orders.resize(static_cast<size_t>(orders));
+  for (order_t& order : message.orders) {
+    FillAll(stream, order.index, order.actor_id, order.attempt, order.kind, order.epsilon, order.seed,
+            order.current_version, order.target_version);
+  }
+  return message;
+}
+
+weights_t WeightsOf(RandomStream& stream, int values) {
+  auto message = Identified<weights_t>(stream);
+  FillAll(stream, message.version, message.offset, message.total_values, message.crc32c);
+  message.value_count = values;
+  Fill(stream, message.values, values);
+  return message;
+}
+
+run_t RunOf(RandomStream& stream, int part_bytes) {
+  auto message = Identified<run_t>(stream);
+  FillAll(stream, message.part_index, message.part_count, message.protocol_version,
+          message.arithmetic_fingerprint, message.inputs, message.outputs, message.parameters,
+          message.values_per_chunk, message.current_version, message.target_version, message.finished);
+  message.part_size = part_bytes;
+  Fill(stream, message.part, part_bytes);
+  return message;
+}
+
+transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors) {
+  auto message = Identified<transitions_t>(stream);
+  FillAll(stream, message.order_index, message.actor_id, message.first_transition, message.outcome);
+  message.transition_count = transitions;
+  message.state_count = transitions + 1;
+  message.sensor_count = sensors;
+  message.mask_size = (5 * (sensors + 1) + 7) / 8;
+  for (auto* values : {&message.column, &message.row, &message.time_margin}) {
+    Fill(stream, *values, message.state_count);
+  }
+  Fill(stream, message.energy_margin_j, message.state_count);
+  message.aoi.resize(static_cast<size_t>(message.state_count));
+  for (auto& aoi : message.aoi) {
+    Fill(stream, aoi, sensors);
+  }
+  Fill(stream, message.action, transitions);
+  Fill(stream, message.reward, transitions);
+  Fill(stream, message.td_error, transitions);
+  message.next_mask.resize(static_cast<size_t>(transitions));
+  for (auto& mask : message.next_mask) {
+    Fill(stream, mask, message.mask_size);
+  }
+  return message;
+}
+
+actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int host_length) {
+  auto message = Identified<actor_status_t>(stream);
+  FillAll(stream, message.actor_id, message.pid, message.capacity, message.open_orders,
+          message.arithmetic_fingerprint, message.episodes, message.transitions, message.resent_episodes,
+          message.rejected_messages, message.transitions_per_s);
+  message.host = RandomText(stream, host_length);
+  message.held_count = held;
+  message.missing_count = missing;
+  message.held = RangesOf(stream, held);
+  message.missing = RangesOf(stream, missing);
+  return message;
+}
+
+learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length) {
+  auto message = Identified<learner_status_t>(stream);
+  FillAll(stream, message.committed_orders, message.episodes, message.total_episodes, message.transitions,
+          message.updates, message.replay_size, message.current_version, message.target_version,
+          message.orders_in_flight, message.actors, message.epsilon, message.learning_rate, message.loss,
+          message.average_aoi, message.best_average_aoi, message.arrived, message.staleness_updates,
+          message.transitions_per_s, message.updates_per_s, message.received, message.duplicate,
+          message.rejected, message.lost, message.reordered_episodes);
+  message.waiting_for = RandomText(stream, waiting_for_length);
+  return message;
+}
+
+void Randomise(RandomStream& stream, orders_t& message) {
+  message = OrdersOf(stream, Below(stream, kMaximumOrdersPerMessage + 1));
+}
+void Randomise(RandomStream& stream, weights_t& message) {
+  message = WeightsOf(stream, Below(stream, kValuesPerChunk + 1));
+}
+void Randomise(RandomStream& stream, run_t& message) {
+  message = RunOf(stream, Below(stream, kMaximumPartBytes + 1));
+}
+void Randomise(RandomStream& stream, transitions_t& message) {
+  message = TransitionsOf(stream, 1 + Below(stream, 9), 1 + Below(stream, 20));
+}
+void Randomise(RandomStream& stream, actor_status_t& message) {
+  message = ActorStatusOf(stream, Below(stream, 33), Below(stream, 33), Below(stream, 65));
+}
+void Randomise(RandomStream& stream, learner_status_t& message) {
+  message = LearnerStatusOf(stream, Below(stream, 161));
+}
+
+}  // namespace fresco

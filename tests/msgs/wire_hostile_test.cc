@@ -1,0 +1,173 @@
+// What arrives from the network may be anything.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "msgs/wire.h"
+#include "tests/msgs/message_samples.h"
+
+namespace fresco {
+namespace {
+
+constexpr uint32_t kThisTest = 2;
+constexpr size_t kFirstCount = 8 + 3 * 8;  // after fingerprint, utime, run_id, config_hash
+
+RandomStream TestStream(uint32_t index) {
+  return {2026, RandomPurpose::kTest, kThisTest, index};
+}
+
+void PutInt32(std::vector<std::byte>& bytes, size_t offset, int32_t value) {
+  for (size_t i = 0; i < 4; ++i) {
+    bytes.at(offset + i) = static_cast<std::byte>(static_cast<uint32_t>(value) >> (24 - 8 * i));
+  }
+}
+
+std::vector<std::byte> RandomBytes(RandomStream& stream, size_t size) {
+  std::vector<std::byte> bytes(size);
+  for (std::byte& byte : bytes) {
+    byte = static_cast<std::byte>(stream.NextWord());
+  }
+  return bytes;
+}
+
+/// Decodes a copy of exactly the message's size, so that a sanitizer sees every read beyond it.
+template <class Message>
+bool DecodesTo(std::span<const std::byte> bytes, Message& message) {
+  const std::vector<std::byte> exact(bytes.begin(), bytes.end());
+  return Decode(exact, message);
+}
+
+template <class Message>
+bool Decodes(std::span<const std::byte> bytes) {
+  Message message{};
+  return DecodesTo(bytes, message);
+}
+
+template <class Message>
+class HostileWire : public testing::Test {
+ protected:
+  static std::vector<std::byte> Valid(uint32_t index) {
+    RandomStream stream = TestStream(index);
+    return Encoded(RandomMessage<Message>(stream));
+  }
+};
+using MessageTypes =
+    testing::Types<run_t, orders_t, transitions_t, weights_t, actor_status_t, learner_status_t>;
+TYPED_TEST_SUITE(HostileWire, MessageTypes);
+
+TYPED_TEST(HostileWire, RejectsEveryTruncation) {
+  for (uint32_t index = 0; index < 5; ++index) {
+    const std::vector<std::byte> bytes = this->Valid(index);
+    for (size_t size = 0; size < bytes.size(); ++size) {
+      ASSERT_FALSE(Decodes<TypeParam>(std::span(bytes).first(size))) << size << " of " << bytes.size();
+    }
+  }
+}
+
+TYPED_TEST(HostileWire, SurvivesEverySingleBitFlip) {
+  for (uint32_t index = 0; index < 3; ++index) {
+    std::vector<std::byte> bytes = this->Valid(index);
+    for (size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+      const std::byte flipped{static_cast<unsigned char>(1u << bit % 8)};
+      bytes[bit / 8] ^= flipped;
+      TypeParam message{};
+      if (DecodesTo(bytes, message)) {
+        ASSERT_EQ(Encoded(message).size(), bytes.size()) << "bit " << bit;
+        ASSERT_GE(bit, 64u) << "the fingerprint is not looked at";
+      }
+      bytes[bit / 8] ^= flipped;
+    }
+  }
+}
+
+TYPED_TEST(HostileWire, RejectsAbsurdCounts) {
+  const auto maxima = CountMaxima(TypeParam{});
+  for (size_t count = 0; count < maxima.size(); ++count) {
+    const int32_t maximum = maxima.begin()[count];
+    for (const int32_t absurd : {-1, 500'000'000, maximum + 1, std::numeric_limits<int32_t>::min(),
+                                 std::numeric_limits<int32_t>::max()}) {
+      std::vector<std::byte> bytes = this->Valid(1);
+      PutInt32(bytes, kFirstCount + 4 * count, absurd);
+      TypeParam message{};
+      EXPECT_FALSE(CountsAreAllowed(bytes, maxima)) << "count " << count << ": " << absurd;
+      EXPECT_FALSE(DecodesTo(bytes, message)) << "count " << count << ": " << absurd;
+      EXPECT_EQ(message.utime, 0) << "it was decoded";
+    }
+  }
+}
+
+TYPED_TEST(HostileWire, RejectsTrailingBytes) {
+  std::vector<std::byte> bytes = this->Valid(2);
+  while (bytes.size() < kMaximumMessageBytes) {
+    bytes.push_back(std::byte{0});
+    ASSERT_FALSE(Decodes<TypeParam>(bytes)) << bytes.size();
+  }
+}
+
+TYPED_TEST(HostileWire, RejectsOversizedMessages) {
+  for (const size_t size : {kMaximumMessageBytes + 1, size_t{65'000}}) {
+    std::vector<std::byte> bytes = this->Valid(3);
+    bytes.resize(size);
+    EXPECT_FALSE(Decodes<TypeParam>(bytes));
+  }
+}
+
+TYPED_TEST(HostileWire, SurvivesRandomBytes) {
+  const std::vector<std::byte> valid = this->Valid(4);
+  for (uint32_t index = 0; index < 5000; ++index) {
+    RandomStream stream = TestStream(index);
+    std::vector<std::byte> bytes = RandomBytes(stream, stream.NextBelow(kMaximumMessageBytes + 1));
+    EXPECT_FALSE(Decodes<TypeParam>(bytes));
+    std::copy_n(valid.begin(), std::min(bytes.size(), kFirstCount), bytes.begin());
+    for (size_t offset = kFirstCount; offset + 4 <= std::min(bytes.size(), kFirstCount + 16); offset += 4) {
+      PutInt32(bytes, offset, static_cast<int32_t>(stream.NextBelow(9)));
+    }
+    TypeParam message{};
+    if (DecodesTo(bytes, message)) {
+      EXPECT_EQ(static_cast<size_t>(message.getEncodedSize()), bytes.size());
+    }
+  }
+}
+
+TYPED_TEST(HostileWire, RejectsEveryOtherType) {
+  RandomStream stream = TestStream(5);
+  const std::vector<std::vector<std::byte>> all = {
+      Encoded(RandomMessage<run_t>(stream)),          Encoded(RandomMessage<orders_t>(stream)),
+      Encoded(RandomMessage<transitions_t>(stream)),  Encoded(RandomMessage<weights_t>(stream)),
+      Encoded(RandomMessage<actor_status_t>(stream)), Encoded(RandomMessage<learner_status_t>(stream))};
+  int decoded = 0;
+  for (const std::vector<std::byte>& bytes : all) {
+    decoded += Decodes<TypeParam>(bytes);
+  }
+  EXPECT_EQ(decoded, 1);
+}
+
+template <class Message>
+void ExpectStringsOfAbsurdLengthRejected(Message message, std::string Message::*text) {
+  message.*text = "";
+  const size_t offset =
+      static_cast<size_t>(Message{}.getEncodedSize()) - 5;  // a length of four bytes, one NUL
+  const int32_t lowest = std::numeric_limits<int32_t>::min();
+  for (const int32_t length :
+       {lowest, lowest + 1, -500'000'000, -1, 0, 2'000, std::numeric_limits<int32_t>::max()}) {
+    std::vector<std::byte> bytes = Encoded(message);
+    PutInt32(bytes, offset, length);
+    EXPECT_FALSE(Decodes<Message>(bytes)) << length;
+  }
+}
+
+TEST(HostileString, IsRejectedWhereItsLengthIsAbsurd) {
+  RandomStream stream = TestStream(6);
+  ExpectStringsOfAbsurdLengthRejected(ActorStatusOf(stream, 3, 3, 0), &actor_status_t::host);
+  ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 0), &learner_status_t::waiting_for);
+}
+
+TEST(HostileWireDeathTest, AMessageTooLargeForAFrameIsAProgrammersError) {
+  RandomStream stream = TestStream(7);
+  const weights_t message = WeightsOf(stream, kValuesPerChunk + 10);
+  EXPECT_DEATH(Encoded(message), "kMaximumEncodedBytes");
+}
+
+}  // namespace
+}  // namespace fresco
