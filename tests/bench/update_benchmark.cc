@@ -97,6 +97,8 @@ BENCHMARK_CAPTURE(Products, double_dqn, 3)->Unit(benchmark::kMicrosecond);
 /// Prints the usual table, and keeps the shortest time of each benchmark for the shares.
 class ShareReporter : public benchmark::ConsoleReporter {
  public:
+  ShareReporter() : ConsoleReporter(OO_Tabular) {}
+
   void ReportRuns(const std::vector<Run>& runs) override {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
