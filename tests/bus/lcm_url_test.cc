@@ -1,0 +1,61 @@
+#include "bus/lcm_url.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/bus.h"
+#include "core/error.h"
+
+namespace fresco {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(LcmUrl, GetsTheDefaultsThatItDoesNotName) {
+  EXPECT_EQ(NormalizeLcmUrl("udpm://239.255.76.67:7667"),
+            "udpm://239.255.76.67:7667?recv_buf_size=4194304&ttl=0");
+  EXPECT_EQ(NormalizeLcmUrl("udpm://224.0.0.1:1?ttl=1"), "udpm://224.0.0.1:1?recv_buf_size=4194304&ttl=1");
+  EXPECT_EQ(NormalizeLcmUrl("udpm://239.1.1.1:65535?recv_buf_size=9&ttl=255"),
+            "udpm://239.1.1.1:65535?recv_buf_size=9&ttl=255");
+  EXPECT_EQ(NormalizeLcmUrl("memq://"), "memq://");
+  EXPECT_EQ(NormalizeLcmUrl("tcpq://localhost:7700"), "tcpq://localhost:7700");
+  EXPECT_NO_THROW(NormalizeLcmUrl(kDefaultLcmUrl));
+}
+
+TEST(LcmUrl, IsRefusedWithItsOffendingPartAndAnExample) {
+  const std::vector<std::pair<std::string, std::string>> bad = {
+      {"", "scheme \"\""},
+      {"udpm", "scheme"},
+      {"udp://239.255.76.67:7667", "scheme \"udp\""},
+      {"file://run.log", "logs"},
+      {"udpm://", "group:port"},
+      {"udpm://239.255.76.67", "239.255.76.67"},
+      {"udpm://239.255.76.67:0", "\"0\""},
+      {"udpm://239.255.76.67:65536", "65536"},
+      {"udpm://239.255.76.67:port", "\"port\""},
+      {"udpm://10.0.0.1:7667", "10.0.0.1"},
+      {"udpm://localhost:7667", "localhost"},
+      {"udpm://239.255.76.67:7667?ttl=256", "256"},
+      {"udpm://239.255.76.67:7667?ttl=", "ttl"},
+      {"udpm://239.255.76.67:7667?tll=0", "tll"},
+      {"udpm://239.255.76.67:7667?ttl", "\"ttl\""},
+      {"udpm://239.255.76.67:7667?recv_buf_size=-1", "-1"},
+      {"tcpq://localhost", "host:port"},
+      {"tcpq://localhost:7700?ttl=1", "no options"},
+      {"memq://here", "nothing"},
+  };
+  for (const auto& [url, part] : bad) {
+    try {
+      NormalizeLcmUrl(url);
+      ADD_FAILURE() << url;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_status(), 2);
+      EXPECT_THAT(error.what(), HasSubstr("\"" + url + "\""));
+      EXPECT_THAT(error.what(), HasSubstr(part));
+      EXPECT_THAT(error.what(), HasSubstr("udpm://239.255.76.67:7667"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fresco
