@@ -1,0 +1,94 @@
+#include "tests/actors/actor_fixture.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "core/clock.h"
+
+namespace fresco {
+
+// Masks let episodes last: 59 transitions, two messages.
+ActorTest::ActorTest(const ActorOptions& options)
+    : experiment_(SmallField({{"scenario.slots", "60"},
+                              {"scenario.initial_energy_j", "22000"},
+                              {"agent.safe_action_mask", "true"},
+                              {"agent.double_dqn", "true"},
+                              {"run.environments_per_actor", "5"}})),
+      actor_(*bus_, channels_, options) {
+  spdlog::set_level(spdlog::level::off);
+}
+
+ActorOptions ActorTest::OptionsOfTheActor() {
+  ActorOptions options;
+  options.actor_id = kActorId;
+  options.host = "here";
+  options.pid = 321;
+  return options;
+}
+
+bool ActorTest::Step(int64_t later_us) {
+  constexpr int kEverything = 100'000;
+  bus_->Poll(0, kEverything);
+  now_us_ = std::max(now_us_, MonotonicMicroseconds()) + later_us;
+  const bool busy = actor_.Step(now_us_);
+  bus_->Poll(0, kEverything);
+  return busy;
+}
+
+void ActorTest::FlyAll() {
+  constexpr int kEndless = 5000;
+  constexpr int kIdleSteps = 3;
+  int idle_steps = 0;
+  int steps = 0;
+  while (idle_steps < kIdleSteps && ++steps < kEndless) {
+    idle_steps = Step(10) ? 0 : idle_steps + 1;
+  }
+  ASSERT_LT(steps, kEndless);
+}
+
+actor_status_t ActorTest::NextStatus() {
+  constexpr int64_t kStatusPeriodUs = 100'000;
+  const size_t before = learner_.statuses().size();
+  Step(kStatusPeriodUs);
+  EXPECT_EQ(learner_.statuses().size(), before + 1);
+  return learner_.statuses().back();
+}
+
+void ActorTest::BeginRun() {
+  learner_.AnnounceRun();
+  Step();
+  learner_.SendVersion({NetworkKind::kCurrent, 0}, *current_);
+  learner_.SendVersion({NetworkKind::kTarget, 0}, *target_);
+  Step();
+  ASSERT_TRUE(actor_.has_run());
+}
+
+order_t ActorTest::OrderTo(int64_t actor_id, int64_t index, int32_t attempt) const {
+  return ToWire(TrainOrder(index, kEpsilon), actor_id, attempt);
+}
+
+std::vector<order_t> ActorTest::Orders(int64_t first, int64_t count) const {
+  std::vector<order_t> orders;
+  for (int64_t index = first; index < first + count; ++index) {
+    orders.push_back(OrderTo(kActorId, index));
+  }
+  return orders;
+}
+
+Episode ActorTest::Expected(int64_t index) const {
+  return FlyAlone(world_, experiment_, {TrainOrder(index, kEpsilon), current_, target_});
+}
+
+void ActorTest::ExpectEpisodes(size_t before, const std::vector<int64_t>& indices) const {
+  std::vector<int64_t> arrived;
+  for (size_t i = before; i < learner_.episodes().size(); ++i) {
+    const Episode& episode = learner_.episodes()[i];
+    arrived.push_back(episode.order_index);
+    EXPECT_TRUE(SameBits(episode, Expected(episode.order_index))) << episode.order_index;
+  }
+  std::sort(arrived.begin(), arrived.end());
+  EXPECT_EQ(arrived, indices);
+}
+
+}  // namespace fresco

@@ -1,0 +1,139 @@
+// What an actor flies and sends, and what it forgets.
+#include "tests/actors/actor_fixture.h"
+
+namespace fresco {
+namespace {
+
+using ActorOrders = ActorTest;
+
+TEST_F(ActorOrders, GiveWholeEpisodesWithTheBitsOfAFlyer) {
+  BeginRun();
+  learner_.SendOrders(Orders(0, 5));
+  FlyAll();
+  ExpectEpisodes(0, {0, 1, 2, 3, 4});
+  EXPECT_GT(learner_.episodes()[0].transitions(), TransitionsPerMessage(world_.sensors()));
+  EXPECT_EQ(learner_.senders(), std::set<int64_t>{kActorId});
+  int64_t transitions = 0;
+  for (const Episode& episode : learner_.episodes()) {
+    transitions += episode.transitions();
+  }
+  const actor_status_t status = NextStatus();
+  EXPECT_EQ(status.episodes, 5);
+  EXPECT_EQ(status.transitions, transitions);
+  EXPECT_EQ(status.resent_episodes, 0);
+  EXPECT_EQ(status.rejected_messages, 0);
+  EXPECT_EQ(status.open_orders, 0);
+}
+
+TEST_F(ActorOrders, WaitForRoom) {
+  BeginRun();
+  learner_.SendOrders(Orders(0, 12));
+  Step();
+  EXPECT_EQ(NextStatus().open_orders, 12);
+  FlyAll();
+  EXPECT_EQ(NextStatus().open_orders, 0);
+  ExpectEpisodes(0, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+}
+
+TEST_F(ActorOrders, AreFlownOnceHoweverOftenTheyAreRepeated) {
+  BeginRun();
+  for (int i = 0; i < 200; ++i) {
+    learner_.SendOrders(Orders(0, 3));
+    Step(10);
+  }
+  ExpectEpisodes(0, {0, 1, 2});
+  EXPECT_EQ(NextStatus().resent_episodes, 0);
+}
+
+TEST_F(ActorOrders, OfOtherActorsAreIgnored) {
+  BeginRun();
+  learner_.SendOrders({OrderTo(kActorId + 1, 0), OrderTo(kActorId, 1), OrderTo(0, 2)});
+  FlyAll();
+  ExpectEpisodes(0, {1});
+  EXPECT_EQ(actor_.totals().rejected_messages, 0);
+}
+
+TEST_F(ActorOrders, OfAnotherRunOrConfigurationAreCountedAndIgnored) {
+  BeginRun();
+  orders_t message{};
+  message.order_count = 1;
+  message.orders = Orders(0, 1);
+  learner_.Send(channels_.orders, message, {kRunId + 1, learner_.identity().config_hash});
+  learner_.Send(channels_.orders, message, {kRunId, learner_.identity().config_hash ^ 1});
+  FlyAll();
+  EXPECT_EQ(NextStatus().rejected_messages, 2);
+  EXPECT_EQ(NextStatus().episodes, 0);
+}
+
+TEST_F(ActorOrders, OfNoRunAreIgnored) {
+  learner_.SendOrders(Orders(0, 1));
+  FlyAll();
+  BeginRun();
+  FlyAll();
+  EXPECT_TRUE(learner_.episodes().empty());
+}
+
+TEST_F(ActorOrders, OfAHigherAttemptHaveWhatWasFlownSentAgain) {
+  BeginRun();
+  learner_.SendOrders(Orders(0, 2));
+  FlyAll();
+  for (const int32_t attempt : {0, 1, 1, 0, 3, 2, 3}) {
+    learner_.SendOrders({OrderTo(kActorId, 0, attempt)});
+    Step();
+  }
+  ExpectEpisodes(0, {0, 0, 0, 1});  // again for attempts 1 and 3
+  EXPECT_EQ(NextStatus().resent_episodes, 2);
+  EXPECT_EQ(NextStatus().episodes, 2);
+}
+
+TEST_F(ActorOrders, OfAHigherAttemptThatArriveInFlightAreAnsweredByThatFlight) {
+  BeginRun();
+  learner_.SendOrders(Orders(0, 1));
+  Step();
+  learner_.SendOrders({OrderTo(kActorId, 0, 1)});
+  FlyAll();
+  learner_.SendOrders({OrderTo(kActorId, 0, 1)});
+  FlyAll();
+  ExpectEpisodes(0, {0});
+}
+
+TEST_F(ActorOrders, ThatAreCommittedAreNotFlown) {
+  BeginRun();
+  learner_.SendOrders(Orders(0, 4), 2);
+  FlyAll();
+  ExpectEpisodes(0, {2, 3});
+}
+
+TEST_F(ActorOrders, ThatWaitedAreForgottenOnceCommitted) {
+  BeginRun();
+  std::vector<order_t> orders = Orders(0, 4);
+  for (order_t& order : orders) {
+    order.current_version = 1;  // which is not here
+  }
+  learner_.SendOrders(orders);
+  Step();
+  EXPECT_EQ(NextStatus().open_orders, 4);
+  learner_.SendOrders({}, 3);  // another actor has flown them
+  EXPECT_EQ(NextStatus().open_orders, 1);
+  learner_.SendVersion({NetworkKind::kCurrent, 1}, *current_);
+  FlyAll();
+  ExpectEpisodes(0, {3});
+}
+
+TEST_F(ActorOrders, ThatWereFlownAreForgottenOnceCommittedAndFlownAgainWithTheSameBits) {
+  BeginRun();
+  learner_.SendOrders(Orders(0, 3));
+  FlyAll();
+  learner_.SendOrders({}, 2);
+  learner_.SendOrders({OrderTo(kActorId, 0, 1), OrderTo(kActorId, 2, 1)}, 2);
+  FlyAll();
+  ExpectEpisodes(3, {2});  // order 2 was kept and is sent again, order 0 is done
+  learner_.SendOrders({OrderTo(kActorId, 0, 0), OrderTo(kActorId, 1, 0)}, 0);  // a late packet
+  FlyAll();
+  ExpectEpisodes(4, {0, 1});
+  EXPECT_EQ(NextStatus().episodes, 5);
+  EXPECT_EQ(NextStatus().resent_episodes, 1);
+}
+
+}  // namespace
+}  // namespace fresco

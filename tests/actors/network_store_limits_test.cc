@@ -1,0 +1,155 @@
+// What a network store refuses, asks for, forgets and reports.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "tests/actors/store_samples.h"
+
+namespace fresco {
+namespace {
+
+using Arrival = NetworkStore::Arrival;
+
+constexpr int64_t kParameters = 3000;
+constexpr int kChunks = 10;
+constexpr int kLarge = 100 * kValuesPerChunk;  // values in a hundred chunks
+constexpr NetworkVersion kCurrent7{NetworkKind::kCurrent, 7};
+constexpr NetworkVersion kTarget2{NetworkKind::kTarget, 2};
+
+TEST(NetworkStore, RejectsSizesAndOffsetsThatAreNotThoseOfAChunk) {
+  constexpr int kLargest = std::numeric_limits<int32_t>::max();
+  constexpr int kSmallest = std::numeric_limits<int32_t>::min();
+  const std::vector<std::function<void(weights_t&)>> lies = {
+      [](weights_t& chunk) { chunk.total_values += 1; },
+      [](weights_t& chunk) { chunk.total_values = kLargest; },
+      [](weights_t& chunk) { chunk.total_values = 0; },
+      [](weights_t& chunk) { chunk.offset += 1; },
+      [](weights_t& chunk) { chunk.offset = -kValuesPerChunk; },
+      [](weights_t& chunk) { chunk.offset = kSmallest; },
+      [](weights_t& chunk) { chunk.offset = kChunks * kValuesPerChunk; },
+      [](weights_t& chunk) { chunk.offset = (kChunks - 1) * kValuesPerChunk; },  // where it is too long
+      [](weights_t& chunk) { chunk.offset = kLargest / kValuesPerChunk * kValuesPerChunk; },
+      [](weights_t& chunk) { chunk.values.resize(static_cast<size_t>(--chunk.value_count)); },
+      [](weights_t& chunk) { chunk.value_count = 0, chunk.values.clear(); },
+      [](weights_t& chunk) { chunk.version = -1; },
+      [](weights_t& chunk) { chunk.version = kSmallest; },
+  };
+  NetworkStore store(kParameters);
+  store.SetWanted({kCurrent7});
+  for (size_t i = 0; i < lies.size(); ++i) {
+    weights_t chunk = ChunksOf(7, kParameters)[2];
+    lies[i](chunk);
+    EXPECT_EQ(store.Add(NetworkKind::kCurrent, chunk, 0), Arrival::kRejected) << i;
+  }
+  store.MissingRanges(0, kQuietUs);
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs, kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
+}
+
+TEST(NetworkStore, ReportsExactlyTheGapsAndOnlyAfterQuietTime) {
+  NetworkStore store(kParameters);
+  store.SetWanted({kCurrent7});
+  const auto chunks = ChunksOf(7, kParameters);
+  for (const size_t chunk : {1u, 2u, 5u, 8u}) {
+    store.Add(NetworkKind::kCurrent, chunks[chunk], 1000);
+  }
+  EXPECT_TRUE(store.MissingRanges(1000 + kQuietUs - 1, kQuietUs).empty());
+  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietUs, kQuietUs)),
+            (Ranges{{0, 7, 0, 1}, {0, 7, 3, 2}, {0, 7, 6, 2}, {0, 7, 9, 1}}));
+  store.Add(NetworkKind::kCurrent, chunks[4], 9000);
+  EXPECT_TRUE(store.MissingRanges(9000 + kQuietUs - 1, kQuietUs).empty());  // they are still coming
+  EXPECT_EQ(Plain(store.MissingRanges(9000 + kQuietUs, kQuietUs)),
+            (Ranges{{0, 7, 0, 1}, {0, 7, 3, 1}, {0, 7, 6, 2}, {0, 7, 9, 1}}));
+  Complete(store, kCurrent7, kParameters, 9000);
+  EXPECT_TRUE(store.MissingRanges(100'000, kQuietUs).empty());
+}
+
+TEST(NetworkStore, AsksForAllOfAVersionOfWhichNothingCameSinceItWasWanted) {
+  NetworkStore store(kParameters);
+  EXPECT_TRUE(store.MissingRanges(0, kQuietUs).empty());
+  store.SetWanted({kCurrent7, kTarget2});
+  EXPECT_TRUE(store.MissingRanges(10'000, kQuietUs).empty());
+  EXPECT_TRUE(store.MissingRanges(10'000 + kQuietUs - 1, kQuietUs).empty());
+  EXPECT_EQ(Plain(store.MissingRanges(10'000 + kQuietUs, kQuietUs)),
+            (Ranges{{0, 7, 0, kChunks}, {1, 2, 0, kChunks}}));
+  store.SetWanted({kTarget2});
+  EXPECT_EQ(Plain(store.MissingRanges(20'000, kQuietUs)), (Ranges{{1, 2, 0, kChunks}}));
+  store.SetWanted({kCurrent7});  // wanted again: quiet time begins again
+  EXPECT_TRUE(store.MissingRanges(30'000, kQuietUs).empty());
+}
+
+TEST(NetworkStore, DoesNotAskForWhatNobodyWants) {
+  NetworkStore store(kParameters);
+  store.Add(NetworkKind::kCurrent, ChunksOf(7, kParameters)[0], 0);
+  store.SetWanted({kTarget2});
+  store.MissingRanges(1'000'000, kQuietUs);
+  EXPECT_EQ(Plain(store.MissingRanges(2'000'000, kQuietUs)), (Ranges{{1, 2, 0, kChunks}}));
+}
+
+TEST(NetworkStore, ReportsAtMostAsManyRangesAsAMessageTakes) {
+  NetworkStore store(kLarge);
+  std::set<NetworkVersion> wanted = {kCurrent7};
+  for (int32_t version = 100; version < 200; ++version) {
+    wanted.emplace(NetworkKind::kTarget, version);
+  }
+  store.SetWanted(wanted);
+  const auto chunks = ChunksOf(7, kLarge);
+  for (size_t chunk = 0; chunk < chunks.size(); chunk += 2) {
+    store.Add(NetworkKind::kCurrent, chunks[chunk], 0);
+  }
+  store.MissingRanges(0, kQuietUs);
+  const Ranges ranges = Plain(store.MissingRanges(kQuietUs, kQuietUs));
+  ASSERT_EQ(ranges.size(), static_cast<size_t>(kMaximumMissingRanges));
+  for (int i = 0; i < kMaximumMissingRanges; ++i) {
+    EXPECT_EQ(ranges[static_cast<size_t>(i)], std::tuple(0, 7, 2 * i + 1, 1));
+  }
+}
+
+TEST(NetworkStore, BoundsWhatItKeepsOfHundredsOfVersionsAndKeepsTheWantedOnes) {
+  NetworkStore store(kParameters);
+  store.SetWanted({kCurrent7, kTarget2});
+  Complete(store, kCurrent7, kParameters);
+  store.Add(NetworkKind::kTarget, ChunksOf(2, kParameters)[0], 0);
+  constexpr int32_t kVersions = 400;
+  for (int32_t version = 8; version < kVersions; ++version) {
+    Complete(store, {NetworkKind::kCurrent, version}, kParameters);
+    store.Add(NetworkKind::kTarget, ChunksOf(version, kParameters)[0], 0);  // for ever incomplete
+  }
+  int kept = 0;
+  for (int32_t version = 8; version < kVersions; ++version) {
+    kept += store.Find({NetworkKind::kCurrent, version}) != nullptr;
+  }
+  EXPECT_GE(kept, 1);
+  EXPECT_LE(kept, 16);
+  EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+  EXPECT_EQ(Plain(store.MissingRanges(1'000'000, kQuietUs)), (Ranges{{1, 2, 1, kChunks - 1}}));
+}
+
+TEST(NetworkStore, ReportsTheVersionsItHoldsTheNewestOfEachNetworkFirst) {
+  NetworkStore store(kParameters);
+  EXPECT_TRUE(store.HeldVersions().empty());
+  for (const int32_t version : {3, 1, 2}) {
+    Complete(store, {NetworkKind::kCurrent, version}, kParameters);
+  }
+  Complete(store, kTarget2, kParameters);
+  store.Add(NetworkKind::kTarget, ChunksOf(3, kParameters)[0], 0);  // incomplete
+  EXPECT_EQ(Plain(store.HeldVersions()),
+            (Ranges{{1, 2, 0, kChunks}, {0, 3, 0, kChunks}, {0, 2, 0, kChunks}, {0, 1, 0, kChunks}}));
+}
+
+TEST(NetworkStore, ReportsAtMostAsManyVersionsAsAMessageTakes) {
+  NetworkStore store(1);
+  std::set<NetworkVersion> wanted;
+  for (int32_t version = 0; version < 2 * kMaximumHeldVersions; ++version) {
+    wanted.emplace(NetworkKind::kCurrent, version);
+  }
+  store.SetWanted(wanted);
+  for (const NetworkVersion& version : wanted) {
+    Complete(store, version, 1);
+  }
+  EXPECT_EQ(store.HeldVersions().size(), static_cast<size_t>(kMaximumHeldVersions));
+  EXPECT_EQ(store.HeldVersions().front().version, 2 * kMaximumHeldVersions - 1);
+}
+
+}  // namespace
+}  // namespace fresco

@@ -1,0 +1,118 @@
+#include "actors/network_store.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/actors/store_samples.h"
+
+namespace fresco {
+namespace {
+
+using Arrival = NetworkStore::Arrival;
+
+constexpr int64_t kParameters = 3000;  // nine chunks of 308 values, one of 228
+constexpr int kChunks = 10;
+constexpr NetworkVersion kCurrent7{NetworkKind::kCurrent, 7};
+constexpr NetworkVersion kTarget7{NetworkKind::kTarget, 7};
+
+TEST(NetworkStore, CompletesAVersionFromChunksInAnyOrder) {
+  RandomStream stream(1, RandomPurpose::kTest, 0, 0);
+  for (int trial = 0; trial < 20; ++trial) {
+    auto chunks = ChunksOf(7, kParameters);
+    ASSERT_EQ(chunks.size(), static_cast<size_t>(kChunks));
+    for (size_t i = chunks.size(); i > 1; --i) {
+      std::swap(chunks[i - 1], chunks[stream.NextBelow(static_cast<uint32_t>(i))]);
+    }
+    NetworkStore store(kParameters);
+    for (size_t i = 0; i < chunks.size(); ++i) {
+      EXPECT_EQ(store.Find(kCurrent7), nullptr);
+      EXPECT_TRUE(store.HeldVersions().empty());
+      const bool last = i + 1 == chunks.size();
+      EXPECT_EQ(store.Add(NetworkKind::kCurrent, chunks[i], 0),
+                last ? Arrival::kCompleted : Arrival::kAccepted);
+    }
+    EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+  }
+}
+
+TEST(NetworkStore, SaysWhatIsADuplicateBeforeAndAfterCompletion) {
+  NetworkStore store(kParameters);
+  for (const weights_t& chunk : ChunksOf(7, kParameters)) {
+    store.Add(NetworkKind::kCurrent, chunk, 0);
+    EXPECT_EQ(store.Add(NetworkKind::kCurrent, chunk, 0), Arrival::kDuplicate);
+  }
+  weights_t other = ChunksOf(7, kParameters)[3];
+  other.values[5] += 1;
+  EXPECT_EQ(store.Add(NetworkKind::kCurrent, other, 0), Arrival::kDuplicate);
+  EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+}
+
+TEST(NetworkStore, KeepsTheTwoNetworksAndTheirVersionsApart) {
+  NetworkStore store(kParameters);
+  const auto chunks = ChunksOf(7, kParameters);
+  const auto others = ChunksOf(8, kParameters);
+  for (int i = 0; i < kChunks; ++i) {
+    const auto chunk = static_cast<size_t>(i);
+    store.Add(i % 2 == 0 ? NetworkKind::kCurrent : NetworkKind::kTarget, chunks[chunk], 0);
+    store.Add(i % 2 == 0 ? NetworkKind::kTarget : NetworkKind::kCurrent, others[chunk], 0);
+  }
+  EXPECT_TRUE(store.HeldVersions().empty());
+  Complete(store, {NetworkKind::kTarget, 8}, kParameters);
+  EXPECT_TRUE(Holds(store, {NetworkKind::kTarget, 8}, kParameters));
+  EXPECT_EQ(store.Find({NetworkKind::kCurrent, 8}), nullptr);
+  EXPECT_EQ(store.Find(kTarget7), nullptr);
+}
+
+TEST(NetworkStore, RejectsAVersionWhoseCrcDoesNotHoldAndAsksForAllOfIt) {
+  NetworkStore store(kParameters);
+  store.SetWanted({kCurrent7});
+  auto chunks = ChunksOf(7, kParameters);
+  chunks[4].values[17] += 0.5f;
+  for (const weights_t& chunk : chunks) {
+    EXPECT_EQ(store.Add(NetworkKind::kCurrent, chunk, 0),
+              chunk.offset == chunks.back().offset ? Arrival::kRejected : Arrival::kAccepted);
+  }
+  EXPECT_EQ(store.Find(kCurrent7), nullptr);
+  EXPECT_TRUE(store.HeldVersions().empty());
+  store.MissingRanges(0, kQuietUs);
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs, kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
+  Complete(store, kCurrent7, kParameters, kQuietUs);
+  EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+}
+
+TEST(NetworkStore, RejectsAChunkOfAnotherCrcThanItsVersions) {
+  NetworkStore store(kParameters);
+  auto chunks = ChunksOf(7, kParameters);
+  weights_t other = chunks[1];
+  other.crc32c ^= 1;
+  store.Add(NetworkKind::kCurrent, chunks[0], 0);
+  EXPECT_EQ(store.Add(NetworkKind::kCurrent, other, 0), Arrival::kRejected);
+  Complete(store, kCurrent7, kParameters);
+  EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+  EXPECT_EQ(store.Add(NetworkKind::kCurrent, other, 0), Arrival::kRejected);
+  EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+}
+
+TEST(NetworkStore, HandsOutParametersThatOutliveTheirVersion) {
+  NetworkStore store(kParameters);
+  Complete(store, kCurrent7, kParameters);
+  const auto parameters = store.Find(kCurrent7);
+  for (int32_t version = 8; version < 40; ++version) {
+    Complete(store, {NetworkKind::kCurrent, version}, kParameters);
+  }
+  ASSERT_EQ(store.Find(kCurrent7), nullptr);
+  EXPECT_EQ(parameters->size(), kParameters);
+  EXPECT_EQ((*parameters)(2999), ValuesOf(7, kParameters)[2999]);
+}
+
+TEST(NetworkStore, HoldsNetworksOfASingleChunk) {
+  for (const int64_t parameters : {int64_t{1}, int64_t{kValuesPerChunk}}) {
+    NetworkStore store(parameters);
+    EXPECT_EQ(store.Add(NetworkKind::kTarget, ChunksOf(7, parameters)[0], 0), Arrival::kCompleted);
+    EXPECT_TRUE(Holds(store, kTarget7, parameters));
+  }
+}
+
+}  // namespace
+}  // namespace fresco
