@@ -1,0 +1,131 @@
+// summary.json, read with a JSON parser and held against figures that are worked out here.
+#include "learner/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "actors/flyer.h"
+#include "tests/learner/literal_crc32c.h"
+#include "tests/learner/recorded_run.h"
+
+namespace fresco {
+namespace {
+
+using Json = nlohmann::json;
+
+BusCounters DistinctCounters() {
+  BusCounters counters;
+  counters.received = 11;
+  counters.lost = 12;
+  counters.duplicate = 13;
+  counters.rejected = 14;
+  counters.rejected_malformed = 15;
+  counters.rejected_foreign = 16;
+  counters.rejected_inconsistent = 17;
+  counters.rejected_arithmetic = 18;
+  counters.reordered_episodes = 19;
+  return counters;
+}
+
+Json SummaryOf(const RecordedRun& run, int64_t run_id = 0x2a) {
+  return Json::parse(SummaryJson(
+      {run.experiment, run.world, run_id, run.trainer.finished(), 4.0, run.trainer, DistinctCounters()}));
+}
+
+std::string EightDigits(uint32_t value) {
+  char text[9];
+  std::snprintf(text, sizeof text, "%08x", value);
+  return text;
+}
+
+/// The three figures over 14 slots, weights 1/3 and 2/3.
+void ExpectFigures(const Json& json, const std::vector<State>& states) {
+  int64_t total = 0;
+  double weighted = 0;
+  ASSERT_EQ(states.size(), 14u);
+  for (const State& state : states) {
+    total += state.aoi[0] + state.aoi[1];
+    weighted += (state.aoi[0] + 2 * state.aoi[1]) / 3.0;
+  }
+  EXPECT_EQ(json.at("total_aoi"), total);
+  EXPECT_NEAR(json.at("average_aoi").get<double>(), weighted / 14, 1e-12);
+  EXPECT_NEAR(json.at("sum_aoi").get<double>(), static_cast<double>(total) / 14, 1e-12);
+  EXPECT_EQ(json.at("arrived"), true);
+}
+
+TEST(Summary, SaysWhatTheRunWas) {
+  RecordedRun run;
+  run.Finish();
+  const Json summary = SummaryOf(run);
+  EXPECT_EQ(summary.at("run_id"), "000000000000002a");
+  EXPECT_EQ(summary.at("config_hash"), EightDigits(run.experiment.hash()));
+  EXPECT_EQ(summary.at("seed"), 5);
+  EXPECT_EQ(summary.at("completed"), true);
+  EXPECT_EQ(summary.at("episodes"), 60);
+  EXPECT_EQ(summary.at("transitions"), 780);
+  EXPECT_EQ(summary.at("updates"), 371);
+  EXPECT_EQ(summary.at("wall_s"), 4.0);
+  EXPECT_EQ(summary.at("updates_per_s"), 92.75);
+  EXPECT_EQ(summary.at("transitions_per_s"), 195.0);
+  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(LiteralCrc32c(run.weights.back())));
+}
+
+TEST(Summary, GivesTheFiguresOfTheBestEvaluatedVersion) {
+  RecordedRun run;
+  run.Finish();
+  const Json summary = SummaryOf(run);
+  const auto version = summary.at("best_version").get<size_t>();
+  const Episode greedy = FlyGreedily(run.world, run.experiment, run.current_versions.at(version));
+  ExpectFigures(summary, greedy.states);
+  for (const Evaluation& evaluation : run.evaluations) {
+    EXPECT_GE(evaluation.figures.total_aoi, 0);
+    EXPECT_GE(evaluation.figures.average_aoi, summary.at("average_aoi").get<double>());
+  }
+}
+
+TEST(Summary, GivesTheFiguresOfBothBaselines) {
+  const RecordedRun run;
+  const Json baselines = SummaryOf(run).at("baselines");
+  EXPECT_EQ(baselines.size(), 2u);
+  for (const auto& [name, kind] :
+       {std::pair("aoi", BaselineKind::kAoi), std::pair("distance", BaselineKind::kDistance)}) {
+    std::vector<State> states;
+    for (const FlightSlot& slot : FlyBaseline(run.world, kind).slots) {
+      states.push_back(slot.state);
+    }
+    ExpectFigures(baselines.at(name), states);
+  }
+}
+
+TEST(Summary, CountsWhatHappenedOnTheBus) {
+  const RecordedRun run;
+  EXPECT_EQ(SummaryOf(run).at("bus"), Json::parse(R"({
+    "received": 11, "lost": 12, "duplicate": 13, "rejected": 14, "rejected_malformed": 15,
+    "rejected_foreign": 16, "rejected_inconsistent": 17, "rejected_arithmetic": 18,
+    "reordered_episodes": 19})"));
+}
+
+TEST(Summary, HasNoFiguresBeforeTheFirstEvaluation) {
+  RecordedRun run;
+  run.Commit(run.Fly(run.next()));
+  const Json summary = SummaryOf(run);
+  for (const char* field : {"total_aoi", "average_aoi", "sum_aoi", "arrived"}) {
+    EXPECT_TRUE(summary.at(field).is_null()) << field;
+  }
+  EXPECT_EQ(summary.at("completed"), false);
+  EXPECT_EQ(summary.at("episodes"), 1);
+  EXPECT_EQ(summary.at("updates"), 0);
+  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(LiteralCrc32c(run.weights.front())));
+}
+
+TEST(Summary, WritesEveryBitOfLargeRunIdsAndSeeds) {
+  const RecordedRun run(Settings{{"schedule.seed", "18446744073709551615"}});
+  const Json summary = SummaryOf(run, -2);
+  EXPECT_EQ(summary.at("run_id"), "fffffffffffffffe");
+  EXPECT_EQ(summary.at("seed").get<uint64_t>(), 18446744073709551615u);
+}
+
+}  // namespace
+}  // namespace fresco
