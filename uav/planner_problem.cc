@@ -1,0 +1,102 @@
+#include "uav/planner_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace fresco {
+namespace {
+
+// The cost of two sensors over a whole flight has to fit a uint32_t.
+double LargestWholeWeight(int slots) {
+  return std::min(1048576.0, std::floor(4294967295.0 / (static_cast<double>(slots) * (slots + 1.0))));
+}
+
+bool AllWhole(const std::vector<double>& weights, double factor) {
+  constexpr double kTolerance = 1e-9;
+  return std::all_of(weights.begin(), weights.end(), [&](double weight) {
+    return std::abs(weight * factor - std::round(weight * factor)) <= kTolerance * weight * factor;
+  });
+}
+
+// The factor that makes the weights whole numbers, none above `limit`; or the one that makes them as
+// large as that, to be rounded down.
+double WholeFactor(const std::vector<double>& weights, double limit) {
+  const auto [smallest, largest] = std::minmax_element(weights.begin(), weights.end());
+  // If they are multiples of a common fraction, then it is some part of the smallest weight.
+  for (int parts = 1; *largest / *smallest * parts <= limit; ++parts) {
+    if (AllWhole(weights, parts / *smallest)) {
+      return parts / *smallest;
+    }
+  }
+  return limit / *largest;
+}
+
+// Down, but for the noise of a whole number's own division and multiplication.
+int32_t RoundDown(double value) {
+  return static_cast<int32_t>(std::floor(value * (1 + 2e-9)));
+}
+
+}  // namespace
+
+PlannerProblem::PlannerProblem(const World& world)
+    : world_(&world),
+      maximum_aoi_(std::min(world.scenario().maximum_aoi.value_or(slots()), slots())),
+      hovering_is_dearer_(world.hovering_energy_j() >= world.flying_energy_j()) {
+  TakeSensors();
+  TakeEnergies();
+}
+
+void PlannerProblem::TakeSensors() {
+  std::vector<double> weights;
+  for (int sensor = 0; sensor < world_->sensors(); ++sensor) {
+    const double weight = world_->scenario().sensors[static_cast<size_t>(sensor)].weight;
+    if (weight > 0) {
+      sensors_.push_back(sensor);
+      weights.push_back(weight);
+    }
+  }
+  const double factor = WholeFactor(weights, LargestWholeWeight(slots()));
+  for (const double weight : weights) {
+    weights_.push_back(RoundDown(weight * factor));
+  }
+  const double weight_sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  average_aoi_per_unit_ = 1 / (factor * weight_sum * slots());
+}
+
+void PlannerProblem::TakeEnergies() {
+  cheap_energy_j_ = std::min(world_->hovering_energy_j(), world_->flying_energy_j());
+  extra_energy_j_ = std::abs(world_->hovering_energy_j() - world_->flying_energy_j());
+  const int moves = slots() - 1;
+  const double budget_j = world_->scenario().initial_energy_j - moves * cheap_energy_j_;
+  energy_binds_ = budget_j < moves * extra_energy_j_;
+  dear_slots_ = moves;
+  while (dear_slots_ * extra_energy_j_ > budget_j) {  // exact, as World rounds its energies
+    --dear_slots_;
+  }
+}
+
+int PlannerProblem::After(int cell, Move move) const {
+  const Cell from = CellAt(cell);
+  const Cell to = world_->After(from, move);
+  return move != Move::kHover && to == from ? -1 : world_->CellIndex(to);
+}
+
+int PlannerProblem::DearAllowance(int slot, int cell) const {
+  const Scenario& scenario = world_->scenario();
+  const Cell at = CellAt(cell);
+  const int from_start = std::abs(at.column - scenario.start.column) + std::abs(at.row - scenario.start.row);
+  const int slots_left = slots() - slot;
+  if (from_start > slot - 1 || world_->DistanceToStop(at) > slots_left) {
+    return -1;
+  }
+  if (!energy_binds_) {
+    return dear_slots_;
+  }
+  // What the way home takes of the dear slots, from the energy that it needs.
+  const double home_j = CompletionEnergy(*world_, at, slots_left) - slots_left * cheap_energy_j_;
+  return dear_slots_ - static_cast<int>(std::lround(home_j / extra_energy_j_));
+}
+
+}  // namespace fresco
