@@ -21,8 +21,10 @@ constexpr int64_t kPollUs = 1'000;
 constexpr int kChunksPerBurst = 8;
 constexpr int64_t kBurstPeriodUs = 200;
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 double OrNan(const std::optional<Evaluation>& evaluation) {
-  return evaluation ? evaluation->figures.average_aoi : std::numeric_limits<double>::quiet_NaN();
+  return evaluation ? evaluation->figures.average_aoi : kNan;
 }
 
 }  // namespace
@@ -88,6 +90,16 @@ void LearnerNode::SetProgress(const TrainerProgress& progress, const std::option
   if (best && best->evaluation.arrived) {
     best_evaluation_ = best->evaluation;
   }
+}
+
+void LearnerNode::SetOptimum(const OptimumBound& optimum) {
+  const std::lock_guard lock(mutex_);
+  optimum_ = optimum;
+}
+
+void LearnerNode::SetFinishing(const std::string& waiting_for) {
+  const std::lock_guard lock(mutex_);
+  finishing_ = waiting_for;
 }
 
 std::optional<CommittedEpisode> LearnerNode::WaitForNext(int64_t timeout_us) {
@@ -291,6 +303,10 @@ learner_status_t LearnerNode::Status(int64_t now_us) {
   status.average_aoi = OrNan(last_evaluation_);
   status.best_average_aoi = OrNan(best_evaluation_);
   status.arrived = last_evaluation_ && last_evaluation_->arrived ? 1 : 0;
+  status.lower_bound_average_aoi = optimum_ ? optimum_->lower_bound_average_aoi : kNan;
+  status.optimum_proved = optimum_ && optimum_->proved ? 1 : 0;
+  status.gap_percent =
+      optimum_ ? GapPercent(status.best_average_aoi, optimum_->lower_bound_average_aoi) : kNan;
   status.staleness_updates = progress_.staleness_updates;
   status.transitions_per_s = transitions_per_s_;
   status.updates_per_s = updates_per_s_;
@@ -304,6 +320,9 @@ learner_status_t LearnerNode::Status(int64_t now_us) {
 }
 
 std::string LearnerNode::WaitingForLocked(int64_t now_us) const {
+  if (!finishing_.empty()) {
+    return finishing_;
+  }
   if (!trainer_waits_ || ledger_.in_flight() == 0 || ledger_.IsComplete(ledger_.committed())) {
     return "";
   }

@@ -16,6 +16,7 @@
 
 #include "bus/bus.h"
 #include "learner/ledger.h"
+#include "learner/optimum_search.h"
 #include "learner/roster.h"
 #include "learner/trainer.h"
 #include "learner/weight_publisher.h"
@@ -47,6 +48,9 @@ class LearnerNode {
   void OfferVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
   void SetProgress(const TrainerProgress& progress, const std::optional<Evaluation>& last,
                    const std::optional<BestNetwork>& best);
+  void SetOptimum(const OptimumBound& optimum);
+  /// What the learner itself is busy with before it ends, for the status; in place of an actor.
+  void SetFinishing(const std::string& waiting_for);
   /// Waits up to `timeout_us` for the next episode by index.
   std::optional<CommittedEpisode> WaitForNext(int64_t timeout_us);
 
@@ -99,6 +103,8 @@ class LearnerNode {
   TrainerProgress progress_;
   std::optional<Evaluation> last_evaluation_;
   std::optional<Evaluation> best_evaluation_;
+  std::optional<OptimumBound> optimum_;
+  std::string finishing_;
   bool trainer_waits_ = false;
   int64_t foreign_run_ = 0;
 

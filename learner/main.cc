@@ -47,12 +47,15 @@ class LearnerProcess {
         bus_(&bus),
         node_(experiment_, world_, run_id, bus, ChannelsWithPrefix(experiment.run().channel_prefix())),
         trainer_(experiment_, world_, Output()),
-        folder_(out, experiment_) {}
+        folder_(out, experiment_),
+        optimum_limits_{experiment.run().optimum_limit_s(),
+                        int64_t{experiment.run().optimum_memory_mb()} * 1'000'000} {}
 
   /// Returns whether the run was completed; otherwise it was interrupted.
   bool Run() {
     RefuseTakenBus();
     begin_us_ = MonotonicMicroseconds();
+    optimum_.emplace(world_, optimum_limits_);
     std::exception_ptr network_error;
     std::jthread network([&](std::stop_token stop) {
       try {
@@ -66,6 +69,8 @@ class LearnerProcess {
       }
     });
     Train();
+    wall_s_ = WallSeconds();
+    WaitForOptimum();
     network.request_stop();
     network.join();
     if (network_error) {
@@ -132,15 +137,35 @@ class LearnerProcess {
     Report();
   }
 
-  void Report() { node_.SetProgress(trainer_.progress(), trainer_.last_evaluation(), trainer_.best()); }
+  /// The search may outlast a short training; an interrupted run does not wait for it.
+  void WaitForOptimum() {
+    constexpr int64_t kReportUs = 200'000;
+    while (!StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
+      node_.SetFinishing(
+          fmt::format("the search for the exact optimum, {:.0f} s more at most", optimum_->seconds_left()));
+      Report();
+    }
+    optimum_->Stop();
+    Report();
+  }
+
+  void Report() {
+    node_.SetProgress(trainer_.progress(), trainer_.last_evaluation(), trainer_.best());
+    if (const auto bound = optimum_->bound()) {
+      node_.SetOptimum(*bound);
+    }
+  }
 
   double WallSeconds() const { return static_cast<double>(MonotonicMicroseconds() - begin_us_) * 1e-6; }
 
   void WriteResults() {
-    const double wall_s = WallSeconds();
+    const std::shared_ptr<const Plan> plan = optimum_->plan();
+    if (plan != nullptr) {
+      folder_.WriteOptimum(OptimumJson(world_, *plan));
+    }
     folder_.WriteFinal(trainer_.current(), trainer_.progress());
-    folder_.WriteSummary(
-        SummaryJson({experiment_, world_, run_id_, trainer_.finished(), wall_s, trainer_, node_.counters()}));
+    folder_.WriteSummary(SummaryJson(
+        {experiment_, world_, run_id_, trainer_.finished(), wall_s_, trainer_, node_.counters(), plan}));
   }
 
   Experiment experiment_;
@@ -150,7 +175,10 @@ class LearnerProcess {
   LearnerNode node_;
   Trainer trainer_;
   RunFolder folder_;
+  OptimumSearch::Limits optimum_limits_;
+  std::optional<OptimumSearch> optimum_;  // from the run's beginning
   int64_t begin_us_ = 0;
+  double wall_s_ = 0;  // of the training
 };
 
 int Main(int argc, char** argv) {

@@ -51,4 +51,8 @@ void RunFolder::WriteSummary(const std::string& json) {
   WriteFileAtomically(directory_ / "summary.json", json + "\n");
 }
 
+void RunFolder::WriteOptimum(const std::string& json) {
+  WriteFileAtomically(directory_ / "optimum.json", json + "\n");
+}
+
 }  // namespace fresco

@@ -1,4 +1,5 @@
-// A run's folder: config.textproto, metrics.csv, best.network, final.network, summary.json. Every
+// A run's folder: config.textproto, metrics.csv, best.network, final.network, optimum.json,
+// summary.json. Every
 // file is whole at any time. Used by one thread.
 #pragma once
 
@@ -23,6 +24,7 @@ class RunFolder {
   void WriteBest(const BestNetwork& best);
   void WriteFinal(const Vector& parameters, const TrainerProgress& progress);
   void WriteSummary(const std::string& json);
+  void WriteOptimum(const std::string& json);
 
  private:
   std::filesystem::path directory_;

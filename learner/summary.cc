@@ -42,7 +42,36 @@ void AddPolicy(const std::optional<BestNetwork>& best, Json& json) {
   json["best_version"] = value([](const Evaluation& e) { return e.version; });
 }
 
+void AddOptimum(const SummaryInputs& inputs, Json& json) {
+  const Plan* plan = inputs.plan.get();
+  const std::optional<BestNetwork>& best = inputs.trainer.best();
+  const bool optimal = plan != nullptr && plan->optimal;
+  const AoiFigures figures = optimal ? Figures(inputs.world, plan->flight) : AoiFigures{};
+  json["optimal_total_aoi"] = optimal ? Json(figures.total_aoi) : Json();
+  json["optimal_average_aoi"] = optimal ? Json(figures.average_aoi) : Json();
+  json["lower_bound_average_aoi"] = plan != nullptr ? Json(plan->lower_bound_average_aoi) : Json();
+  json["gap_percent"] =
+      plan != nullptr && best && best->evaluation.arrived
+          ? Json(GapPercent(best->evaluation.figures.average_aoi, plan->lower_bound_average_aoi))
+          : Json();
+}
+
 }  // namespace
+
+std::string OptimumJson(const World& world, const Plan& plan) {
+  const AoiFigures figures = Figures(world, plan.flight);
+  Json json = {{"optimal", plan.optimal},
+               {"total_aoi", figures.total_aoi},
+               {"average_aoi", figures.average_aoi},
+               {"lower_bound_total_aoi", plan.lower_bound_total_aoi},
+               {"lower_bound_average_aoi", plan.lower_bound_average_aoi},
+               {"labels", plan.labels}};
+  Json& actions = json["actions"] = Json::array();
+  for (size_t slot = 0; slot + 1 < plan.flight.slots.size(); ++slot) {
+    actions.push_back(world.ActionIndex(plan.flight.slots[slot].action));
+  }
+  return json.dump();
+}
 
 std::string SummaryJson(const SummaryInputs& inputs) {
   const TrainerProgress& progress = inputs.trainer.progress();
@@ -61,6 +90,7 @@ std::string SummaryJson(const SummaryInputs& inputs) {
   json["transitions_per_s"] = static_cast<double>(progress.transitions) / inputs.wall_s;
   json["weights_crc32c"] = fmt::format("{:08x}", Crc32c(values));
   AddPolicy(inputs.trainer.best(), json);
+  AddOptimum(inputs, json);
   json["baselines"] = {{"aoi", BaselineFigures(inputs.world, BaselineKind::kAoi)},
                        {"distance", BaselineFigures(inputs.world, BaselineKind::kDistance)}};
   json["staleness_updates"] = progress.staleness_updates;

@@ -19,10 +19,16 @@ struct SummaryInputs {
   double wall_s;
   const Trainer& trainer;
   BusCounters counters;
+  std::shared_ptr<const Plan> plan;  ///< of the search for the optimum; null: none
 };
 
 /// One JSON object. The policy's figures are those of the best evaluated version; `arrived` and the
-/// AoI figures are null before the first evaluation.
+/// AoI figures are null before the first evaluation. `optimal_…` are null unless the optimum is proved;
+/// `gap_percent` is that of average_aoi above the optimum, or above lower_bound_average_aoi where it is
+/// not proved (then it is the gap at most); null where the policy does not arrive.
 std::string SummaryJson(const SummaryInputs& inputs);
+
+/// optimum.json: the best flight of the search, as indices of actions, and what is proved of it.
+std::string OptimumJson(const World& world, const Plan& plan);
 
 }  // namespace fresco

@@ -160,12 +160,17 @@ std::string Print(const google::protobuf::Message& message) {
 }  // namespace
 
 Experiment Experiment::Parse(const std::string& text, const std::string& origin, const Settings& settings) {
-  Experiment experiment;
-  proto::ExperimentConfig& config = experiment.config_;
-  config = ParseText(text, origin);
+  proto::ExperimentConfig config = ParseText(text, origin);
   for (const auto& [path, value] : settings) {
     SetField(config, path, value);
   }
+  return Make(std::move(config), origin);
+}
+
+Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& origin) {
+  Experiment experiment;
+  proto::ExperimentConfig& config = experiment.config_;
+  config = std::move(given);
   FillScenario(*config.mutable_scenario());
   FillAgentAndSchedule(config);
   FillDefaults(config);

@@ -24,6 +24,8 @@ class Experiment {
   /// origin, field, value and what is allowed.
   static Experiment Parse(const std::string& text, const std::string& origin, const Settings& settings = {});
   static Experiment Load(const std::string& path, const Settings& settings = {});
+  /// The same from a configuration that was put together in the program.
+  static Experiment Make(proto::ExperimentConfig config, const std::string& origin);
 
   const proto::ExperimentConfig& config() const { return config_; }
   const proto::Agent& agent() const { return config_.agent(); }

@@ -20,7 +20,7 @@
 namespace fresco {
 
 /// Raised with every change to a .lcm file.
-inline constexpr int32_t kProtocolVersion = 1;
+inline constexpr int32_t kProtocolVersion = 2;
 
 /// Every message fits one Ethernet frame: LCM loses a whole message with one lost fragment.
 inline constexpr size_t kMaximumMessageBytes = 1350;

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "actors/flyer.h"
 #include "core/error.h"
-#include "msgs/network_file.h"
+#include "core/stop_signal.h"
 #include "msgs/settings.h"
 #include "tools/flight_json.h"
 #include "tools/installation.h"
+#include "tools/policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -19,52 +19,55 @@ struct EvaluateOptions {
   std::string config;
   std::vector<std::string> settings;
   std::string policy;
+  PlannerLimits limits;
   std::string format = "text";
 };
 
-/// The best network of a run's folder, or the file itself.
-std::filesystem::path NetworkPath(const std::string& policy) {
-  const std::filesystem::path path(policy);
-  if (!std::filesystem::exists(path)) {
-    throw UsageError(fmt::format(
-        "--policy: expected aoi, distance, a run's folder or a network file; \"{}\" is none of them",
-        policy));
-  }
-  return std::filesystem::is_directory(path) ? path / "best.network" : path;
-}
+/// What was flown, and in which scenario.
+struct Evaluated {
+  explicit Evaluated(const Experiment& experiment) : world(experiment.scenario()) {}
+  World world;
+  Flight flight;
+  std::optional<Plan> plan;  // of the policy "optimal"
+};
 
-Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
-  if (network.experiment.network_shape().inputs() != world.inputs()) {
-    throw UsageError(fmt::format("--policy: the network was trained for {} sensors, the scenario has {}",
-                                 network.experiment.network_shape().inputs() - 4, world.sensors()));
-  }
-  const Episode episode = FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
-  size_t next = 0;
-  return Fly(world, [&](const Environment&) { return world.ActionAt(episode.actions[next++]); });
+Experiment GivenExperiment(const EvaluateOptions& options) {
+  return Experiment::Load(options.config.empty() ? DefaultConfigPath() : options.config,
+                          ParseSettings(options.settings));
 }
 
 /// The scenario comes from --config; the network's shape and masks from the network's own
 /// configuration, which --config replaces where it is given.
-Flight FlyPolicy(const EvaluateOptions& options, std::optional<Experiment>& experiment) {
-  const bool baseline = options.policy == "aoi" || options.policy == "distance";
-  std::optional<StoredNetwork> network;
-  if (!baseline) {
-    network = ReadNetworkFile(NetworkPath(options.policy));
-    experiment =
-        Experiment::Parse(network->experiment.Text(), options.policy, ParseSettings(options.settings));
+Experiment ExperimentOfNetwork(const EvaluateOptions& options, const StoredNetwork& network) {
+  if (options.config.empty()) {
+    return Experiment::Parse(network.experiment.Text(), options.policy, ParseSettings(options.settings));
   }
-  if (baseline || !options.config.empty()) {
-    const std::string config = options.config.empty() ? DefaultConfigPath() : options.config;
-    Experiment given = Experiment::Load(config, ParseSettings(options.settings));
-    if (network && given.network_shape().layer_sizes() != network->experiment.network_shape().layer_sizes()) {
-      throw UsageError(
-          fmt::format("{}: its network (sensors, hidden layers) is not that of {}", config, options.policy));
-    }
-    experiment = std::move(given);
+  Experiment given = GivenExperiment(options);
+  if (given.network_shape().layer_sizes() != network.experiment.network_shape().layer_sizes()) {
+    throw UsageError(fmt::format("{}: its network (sensors, hidden layers) is not that of {}", options.config,
+                                 options.policy));
   }
-  const World world(experiment->scenario());
-  return baseline ? FlyBaseline(world, options.policy == "aoi" ? BaselineKind::kAoi : BaselineKind::kDistance)
-                  : FlyNetwork(world, *experiment, *network);
+  return given;
+}
+
+Evaluated FlyPolicy(const EvaluateOptions& options) {
+  if (options.policy == "aoi" || options.policy == "distance") {
+    Evaluated evaluated(GivenExperiment(options));
+    evaluated.flight =
+        FlyBaseline(evaluated.world, options.policy == "aoi" ? BaselineKind::kAoi : BaselineKind::kDistance);
+    return evaluated;
+  }
+  if (options.policy == "optimal") {
+    Evaluated evaluated(GivenExperiment(options));
+    evaluated.plan = PlanWithin(evaluated.world, options.limits);
+    evaluated.flight = evaluated.plan->flight;
+    return evaluated;
+  }
+  const StoredNetwork network = ReadNetworkFile(NetworkPath(options.policy));
+  const Experiment experiment = ExperimentOfNetwork(options, network);
+  Evaluated evaluated(experiment);
+  evaluated.flight = FlyNetwork(evaluated.world, experiment, network);
+  return evaluated;
 }
 
 void PrintText(const World& world, const Flight& flight, const std::string& policy) {
@@ -80,16 +83,27 @@ void PrintText(const World& world, const Flight& flight, const std::string& poli
              OutcomeName(flight.outcome), figures.average_aoi, figures.total_aoi, flight.residual_energy_j);
 }
 
-int Evaluate(const EvaluateOptions& options) {
-  std::optional<Experiment> experiment;
-  const Flight flight = FlyPolicy(options, experiment);
-  const World world(experiment->scenario());
-  if (options.format == "json") {
-    fmt::print("{}\n", FlightJson(world, flight, options.policy));
+void PrintProof(const Plan& plan) {
+  if (plan.optimal) {
+    fmt::print("This is the exact optimum: no flight has a smaller average AoI.\n");
   } else {
-    PrintText(world, flight, options.policy);
+    const double average_aoi = plan.lower_bound_average_aoi;
+    fmt::print("The search was ended early: no flight has an average AoI below {:.3f} (total AoI {:.1f}).\n",
+               average_aoi, plan.lower_bound_total_aoi);
   }
-  return 0;
+}
+
+int Evaluate(const EvaluateOptions& options) {
+  const Evaluated evaluated = FlyPolicy(options);
+  if (options.format == "json") {
+    fmt::print("{}\n", FlightJson(evaluated.world, evaluated.flight, options.policy, evaluated.plan));
+    return StopSignal::Requested() ? 1 : 0;
+  }
+  PrintText(evaluated.world, evaluated.flight, options.policy);
+  if (evaluated.plan) {
+    PrintProof(*evaluated.plan);
+  }
+  return StopSignal::Requested() ? 1 : 0;
 }
 
 }  // namespace
@@ -100,9 +114,21 @@ void AddEvaluate(CLI::App& app, Command& command) {
   evaluate->add_option("--config", options->config,
                        "Experiment; default: that of the trained policy, or quick.textproto");
   evaluate->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
-  evaluate->add_option("--policy", options->policy, "aoi, distance, a run's folder or a network file")
+  evaluate
+      ->add_option("--policy", options->policy, "aoi, distance, optimal, a run's folder or a network file")
       ->required();
+  evaluate
+      ->add_option("--time-limit-s", options->limits.seconds,
+                   "optimal: end the search after so many seconds with what is proved; default: none")
+      ->check(CLI::Range(0.001, 1e6));
+  evaluate
+      ->add_option_function<int64_t>(
+          "--memory-limit-mb",
+          [options](int64_t megabytes) { options->limits.memory_bytes = megabytes * 1'000'000; },
+          "optimal: memory of the search; default: 2684")
+      ->check(CLI::Range(1, 1'000'000));
   evaluate->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  options->limits.show_progress = true;
   evaluate->callback([options, &command] { command = [options] { return Evaluate(*options); }; });
 }
 

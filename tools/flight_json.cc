@@ -4,7 +4,8 @@
 
 namespace fresco {
 
-std::string FlightJson(const World& world, const Flight& flight, const std::string& policy) {
+std::string FlightJson(const World& world, const Flight& flight, const std::string& policy,
+                       const std::optional<Plan>& plan) {
   using Json = nlohmann::ordered_json;
   const AoiFigures figures = Figures(world, flight);
   Json json = {{"policy", policy},
@@ -15,6 +16,11 @@ std::string FlightJson(const World& world, const Flight& flight, const std::stri
                {"average_aoi", figures.average_aoi},
                {"sum_aoi", figures.sum_aoi},
                {"residual_energy_j", flight.residual_energy_j}};
+  if (plan) {
+    json["optimal"] = plan->optimal;
+    json["lower_bound_total_aoi"] = plan->lower_bound_total_aoi;
+    json["lower_bound_average_aoi"] = plan->lower_bound_average_aoi;
+  }
   Json& slots = json["flight"] = Json::array();
   for (const FlightSlot& slot : flight.slots) {
     slots.push_back({{"slot", slot.state.slot},

@@ -40,6 +40,10 @@ AoiFigures Figures(const World& world, const Flight& flight) {
   return accumulator.Finish();
 }
 
+double GapPercent(double average_aoi, double least_average_aoi) {
+  return 100 * (average_aoi - least_average_aoi) / least_average_aoi;
+}
+
 Flight Fly(const World& world, const std::function<Action(const Environment&)>& policy) {
   Environment environment(world);
   Flight flight;

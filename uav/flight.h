@@ -52,6 +52,9 @@ class AoiAccumulator {
 
 AoiFigures Figures(const World& world, const Flight& flight);
 
+/// By how many percent an average AoI lies above the least possible one, or above a lower bound on it.
+double GapPercent(double average_aoi, double least_average_aoi);
+
 /// Flies one episode from the start with the actions of `policy`.
 Flight Fly(const World& world, const std::function<Action(const Environment&)>& policy);
 

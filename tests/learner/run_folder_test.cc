@@ -72,9 +72,10 @@ TEST_F(RunFolderTest, HasTheFilesOfARunAndNothingElse) {
   folder.AddMetrics(EvaluationOf(1, true), {}, 1);
   folder.WriteBest({EvaluationOf(1, true), std::make_shared<const Vector>(Parameters(1))});
   folder.WriteFinal(Parameters(1), {});
+  folder.WriteOptimum("{}");
   folder.WriteSummary("{}");
   EXPECT_EQ(Names(), (std::set<std::string>{"best.network", "config.textproto", "final.network",
-                                            "metrics.csv", "summary.json"}));
+                                            "metrics.csv", "optimum.json", "summary.json"}));
 }
 
 TEST_F(RunFolderTest, AddsALineOfMetricsWithEveryEvaluation) {

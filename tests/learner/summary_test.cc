@@ -29,9 +29,9 @@ BusCounters DistinctCounters() {
   return counters;
 }
 
-Json SummaryOf(const RecordedRun& run, int64_t run_id = 0x2a) {
-  return Json::parse(SummaryJson(
-      {run.experiment, run.world, run_id, run.trainer.finished(), 4.0, run.trainer, DistinctCounters()}));
+Json SummaryOf(const RecordedRun& run, int64_t run_id = 0x2a, std::shared_ptr<const Plan> plan = nullptr) {
+  return Json::parse(SummaryJson({run.experiment, run.world, run_id, run.trainer.finished(), 4.0, run.trainer,
+                                  DistinctCounters(), plan}));
 }
 
 std::string EightDigits(uint32_t value) {
@@ -97,6 +97,64 @@ TEST(Summary, GivesTheFiguresOfBothBaselines) {
     }
     ExpectFigures(baselines.at(name), states);
   }
+}
+
+/// The optimum of the small field, or as if the search had been ended early.
+std::shared_ptr<const Plan> PlanOf(const RecordedRun& run, bool proved) {
+  Plan plan = PlanOptimally(run.world);
+  if (!proved) {
+    plan.optimal = false;
+    plan.lower_bound_average_aoi *= 0.75;
+  }
+  return std::make_shared<const Plan>(plan);
+}
+
+TEST(Summary, GivesTheOptimumAndTheGapToIt) {
+  RecordedRun run;
+  run.Finish();
+  const auto plan = PlanOf(run, true);
+  const Json summary = SummaryOf(run, 1, plan);
+  const AoiFigures optimal = Figures(run.world, plan->flight);
+  EXPECT_EQ(summary.at("optimal_total_aoi"), optimal.total_aoi);
+  EXPECT_EQ(summary.at("optimal_average_aoi"), optimal.average_aoi);
+  const double average_aoi = summary.at("average_aoi").get<double>();
+  EXPECT_GE(average_aoi, optimal.average_aoi);
+  EXPECT_NEAR(summary.at("gap_percent").get<double>(), (average_aoi / optimal.average_aoi - 1) * 100, 1e-9);
+}
+
+TEST(Summary, GivesTheGapToALowerBoundWhereTheOptimumIsNotProved) {
+  RecordedRun run;
+  run.Finish();
+  const auto plan = PlanOf(run, false);
+  const Json summary = SummaryOf(run, 1, plan);
+  EXPECT_TRUE(summary.at("optimal_total_aoi").is_null());
+  EXPECT_TRUE(summary.at("optimal_average_aoi").is_null());
+  EXPECT_EQ(summary.at("lower_bound_average_aoi"), plan->lower_bound_average_aoi);
+  const double average_aoi = summary.at("average_aoi").get<double>();
+  EXPECT_NEAR(summary.at("gap_percent").get<double>(),
+              (average_aoi / plan->lower_bound_average_aoi - 1) * 100, 1e-9);
+}
+
+TEST(Summary, HasNoGapWithoutASearchOrAnEvaluation) {
+  RecordedRun run;
+  for (const char* field : {"optimal_total_aoi", "lower_bound_average_aoi", "gap_percent"}) {
+    EXPECT_TRUE(SummaryOf(run).at(field).is_null()) << field;
+  }
+  EXPECT_TRUE(SummaryOf(run, 1, PlanOf(run, true)).at("gap_percent").is_null());
+}
+
+TEST(Summary, WritesTheOptimumAsActionsThatFlyIt) {
+  const RecordedRun run;
+  const auto plan = PlanOf(run, true);
+  const Json optimum = Json::parse(OptimumJson(run.world, *plan));
+  size_t next = 0;
+  const Flight flight = Fly(run.world, [&](const Environment&) {
+    return run.world.ActionAt(optimum.at("actions").at(next++).get<int>());
+  });
+  EXPECT_TRUE(flight.arrived());
+  EXPECT_EQ(next, optimum.at("actions").size());
+  EXPECT_EQ(Figures(run.world, flight).total_aoi, optimum.at("total_aoi"));
+  EXPECT_EQ(optimum.at("optimal"), true);
 }
 
 TEST(Summary, CountsWhatHappenedOnTheBus) {

@@ -131,7 +131,8 @@ learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length) {
   FillAll(stream, message.committed_orders, message.episodes, message.total_episodes, message.transitions,
           message.updates, message.replay_size, message.current_version, message.target_version,
           message.orders_in_flight, message.actors, message.epsilon, message.learning_rate, message.loss,
-          message.average_aoi, message.best_average_aoi, message.arrived, message.staleness_updates,
+          message.average_aoi, message.best_average_aoi, message.arrived, message.lower_bound_average_aoi,
+          message.optimum_proved, message.gap_percent, message.staleness_updates,
           message.transitions_per_s, message.updates_per_s, message.received, message.duplicate,
           message.rejected, message.lost, message.reordered_episodes);
   message.waiting_for = RandomText(stream, waiting_for_length);

@@ -1,0 +1,53 @@
+#include "tools/policy.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "actors/flyer.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/stop_signal.h"
+#include "tools/live_line.h"
+
+namespace fresco {
+
+std::filesystem::path NetworkPath(const std::string& policy) {
+  const std::filesystem::path path(policy);
+  if (!std::filesystem::exists(path)) {
+    throw UsageError(fmt::format(
+        "--policy: expected aoi, distance, optimal, a run's folder or a network file; \"{}\" is none of them",
+        policy));
+  }
+  return std::filesystem::is_directory(path) ? path / "best.network" : path;
+}
+
+Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
+  if (network.experiment.network_shape().inputs() != world.inputs()) {
+    throw UsageError(fmt::format("--policy: the network was trained for {} sensors, the scenario has {}",
+                                 network.experiment.network_shape().inputs() - 4, world.sensors()));
+  }
+  const Episode episode = FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
+  size_t next = 0;
+  return Fly(world, [&](const Environment&) { return world.ActionAt(episode.actions[next++]); });
+}
+
+Plan PlanWithin(const World& world, const PlannerLimits& limits) {
+  const int64_t begin_us = MonotonicMicroseconds();
+  LiveLine line(limits.show_progress);
+  PlannerOptions options;
+  options.memory_bytes = limits.memory_bytes;
+  options.keep_going = [&](const PlannerProgress& progress) {
+    const double passed_s = static_cast<double>(MonotonicMicroseconds() - begin_us) * 1e-6;
+    line.Show(
+        fmt::format("searching for {:.0f} s | slot {} of {} | {} labels of {} at most | average AoI "
+                    "between {:.4f} and {:.4f}",
+                    passed_s, progress.slot, world.scenario().slots, progress.labels, progress.width,
+                    progress.lower_bound_average, progress.best_average));
+    return !StopSignal::Requested() && (limits.seconds <= 0 || passed_s < limits.seconds);
+  };
+  return PlanOptimally(world, options);
+}
+
+}  // namespace fresco

@@ -1,0 +1,31 @@
+// The policies that can be flown greedily: baselines, trained networks, the exact optimum.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "msgs/network_file.h"
+#include "uav/flight.h"
+#include "uav/planner.h"
+
+namespace fresco {
+
+/// The network file that a path given by a person stands for: the file itself, or the best evaluated
+/// network of a run's folder. Throws UsageError where there is none.
+std::filesystem::path NetworkPath(const std::string& policy);
+
+/// One greedy episode of a network in `world`, with the masks of `experiment`. Throws UsageError where
+/// the network is for another number of sensors.
+Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
+
+/// How long and with how much memory a person lets the planner search.
+struct PlannerLimits {
+  double seconds = 0;  ///< 0: to the end
+  int64_t memory_bytes = PlannerOptions{}.memory_bytes;
+  bool show_progress = false;  ///< a line on standard error now and then
+};
+
+/// Searches for the exact optimum until it is found, a limit is reached or the program is asked to stop.
+Plan PlanWithin(const World& world, const PlannerLimits& limits);
+
+}  // namespace fresco

@@ -1,0 +1,67 @@
+// The processes of one run: a learner and its local actors, started, minded and ended in order. What
+// `train` shows and `figures` runs many of. Used by one thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "msgs/experiment.h"
+#include "msgs/wire.h"
+#include "tools/child_process.h"
+
+namespace fresco {
+
+class TrainingRun {
+ public:
+  /// Opens the bus and makes the folder; throws UsageError where it holds another run's results.
+  TrainingRun(const Experiment& experiment, std::filesystem::path folder);
+  /// Ends every process that is still there.
+  ~TrainingRun() = default;
+
+  void Start();
+
+  /// Waits for a status, at most `timeout_us`, and starts again what has died. Returns whether the
+  /// learner is still running. Throws Failure with the actor's own words where one can never start.
+  bool Step(int64_t timeout_us);
+
+  /// Ends learner and actors in order; returns the learner's exit status, 0 where the run is complete.
+  int End();
+
+  /// The learner's last status; none before the first.
+  const std::optional<learner_status_t>& status() const { return status_; }
+
+  /// The summary that the learner has left in the folder, as JSON. Throws with the end of the learner's
+  /// log where it has left none.
+  std::string Summary() const;
+
+ private:
+  /// One local actor's place, and how often its process died at once.
+  struct ActorPlace {
+    std::unique_ptr<ChildProcess> process;
+    int early_deaths = 0;
+    int64_t start_at_us = 0;
+  };
+
+  void PrepareFolder();
+  void Listen();
+  std::vector<std::string> LearnerArguments() const;
+  std::vector<std::string> ActorArguments() const;
+  void KeepActorsAlive();
+  void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
+  void EndActors();
+
+  Experiment experiment_;
+  std::filesystem::path folder_;
+  std::string run_id_;
+  std::unique_ptr<Bus> bus_;
+  std::optional<learner_status_t> status_;
+  std::unique_ptr<ChildProcess> learner_;
+  std::vector<ActorPlace> actors_;
+};
+
+}  // namespace fresco
