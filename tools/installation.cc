@@ -1,5 +1,7 @@
 #include "tools/installation.h"
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 
 namespace fresco {
@@ -20,16 +22,16 @@ std::filesystem::path SiblingProgram(const std::string& name) {
   return path;
 }
 
-std::string DefaultConfigPath() {
-  const std::filesystem::path name = std::filesystem::path("configs") / "quick.textproto";
+std::string ConfigPath(const std::string& name) {
+  const std::filesystem::path relative = std::filesystem::path("configs") / name;
   // build/<preset>/bin in the source tree; <prefix>/bin when installed.
   const std::filesystem::path own = OwnDirectory();
-  for (const auto& path : {name, own / "../../.." / name, own / "../share/fresco" / name}) {
+  for (const auto& path : {relative, own / "../../.." / relative, own / "../share/fresco" / relative}) {
     if (std::filesystem::exists(path)) {
       return path.lexically_normal().string();
     }
   }
-  throw UsageError("--config: configs/quick.textproto was not found; name an experiment");
+  throw UsageError(fmt::format("--config: {} was not found; name an experiment", relative.string()));
 }
 
 }  // namespace fresco

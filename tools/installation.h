@@ -9,7 +9,11 @@ namespace fresco {
 /// A program that stands beside this one: fresco-learner, fresco-actor.
 std::filesystem::path SiblingProgram(const std::string& name);
 
-/// configs/quick.textproto of the source tree or the installation; throws UsageError where there is none.
-std::string DefaultConfigPath();
+/// A ready experiment, configs/<name>, of the source tree or the installation; throws UsageError where
+/// there is none.
+std::string ConfigPath(const std::string& name);
+
+/// The one that is used where none is named: quick.textproto.
+inline std::string DefaultConfigPath() { return ConfigPath("quick.textproto"); }
 
 }  // namespace fresco

@@ -12,6 +12,7 @@ namespace fresco {
 namespace {
 
 using Json = nlohmann::json;
+using TableRow = std::vector<std::string>;
 
 std::string GreedyAoi(const learner_status_t& status) {
   if (std::isnan(status.average_aoi)) {
@@ -25,34 +26,19 @@ std::string GreedyAoi(const learner_status_t& status) {
   return text;
 }
 
-std::string Row(const std::string& name, const std::string& average, const std::string& total,
-                const std::string& gap, const std::string& arrived) {
-  return fmt::format("  {:<16} {:>12} {:>10} {:>10}  {}\n", name, average, total, gap, arrived);
-}
-
 /// `least`: the optimum's average AoI or a lower bound on it; null: unknown.
-std::string FiguresRow(const std::string& name, const Json& figures, const Json& least) {
+TableRow FiguresRow(const std::string& name, const Json& figures, const Json& least) {
   const Json average = figures.value("average_aoi", Json());
   if (average.is_null()) {
-    return Row(name, "-", "-", "-", "not evaluated");
+    return {name, "-", "-", "-", "not evaluated"};
   }
   const bool arrived = figures.at("arrived").get<bool>();
   const std::string gap =
       least.is_null() || !arrived
           ? "-"
           : fmt::format("{:.2f} %", GapPercent(average.get<double>(), least.get<double>()));
-  return Row(name, fmt::format("{:.3f}", average.get<double>()),
-             std::to_string(figures.at("total_aoi").get<int64_t>()), gap, arrived ? "yes" : "NO");
-}
-
-std::string OptimumRow(const Json& summary) {
-  const Json& optimal = summary.at("optimal_average_aoi");
-  if (!optimal.is_null()) {
-    return Row("exact optimum", fmt::format("{:.3f}", optimal.get<double>()),
-               std::to_string(summary.at("optimal_total_aoi").get<int64_t>()), "0.00 %", "yes");
-  }
-  const Json& bound = summary.at("lower_bound_average_aoi");
-  return bound.is_null() ? "" : Row("lower bound", fmt::format("{:.3f}", bound.get<double>()), "-", "-", "-");
+  return {name, fmt::format("{:.3f}", average.get<double>()),
+          std::to_string(figures.at("total_aoi").get<int64_t>()), gap, arrived ? "yes" : "NO"};
 }
 
 }  // namespace
@@ -69,17 +55,32 @@ std::string ProgressLine(const learner_status_t& status) {
                                  : " | learner waits for " + status.waiting_for);
 }
 
-std::string ResultTable(const std::string& summary_json) {
+std::vector<TableRow> PolicyRows(const std::string& summary_json) {
   const Json summary = Json::parse(summary_json);
   const Json& optimal = summary.at("optimal_average_aoi");
-  const Json& least = optimal.is_null() ? summary.at("lower_bound_average_aoi") : optimal;
-  const bool proved = !optimal.is_null();
-  std::string table =
-      Row("policy", "average AoI", "total AoI", proved || least.is_null() ? "gap" : "gap <=", "arrived");
-  table += FiguresRow("this run (DQN)", summary, least);
-  table += FiguresRow("AoI-based", summary.at("baselines").at("aoi"), least);
-  table += FiguresRow("distance-based", summary.at("baselines").at("distance"), least);
-  return table + OptimumRow(summary);
+  const Json& bound = summary.at("lower_bound_average_aoi");
+  const bool only_bound = optimal.is_null() && !bound.is_null();
+  const Json& least = only_bound ? bound : optimal;
+  std::vector<TableRow> rows = {
+      {"policy", "average AoI", "total AoI", only_bound ? "gap at most" : "gap", "arrived"},
+      FiguresRow("this run (DQN)", summary, least),
+      FiguresRow("AoI-based", summary.at("baselines").at("aoi"), least),
+      FiguresRow("distance-based", summary.at("baselines").at("distance"), least)};
+  if (only_bound) {
+    rows.push_back({"lower bound", fmt::format("{:.3f}", bound.get<double>()), "-", "-", "-"});
+  } else if (!optimal.is_null()) {
+    rows.push_back({"exact optimum", fmt::format("{:.3f}", optimal.get<double>()),
+                    std::to_string(summary.at("optimal_total_aoi").get<int64_t>()), "0.00 %", "yes"});
+  }
+  return rows;
+}
+
+std::string ResultTable(const std::string& summary_json) {
+  std::string table;
+  for (const TableRow& row : PolicyRows(summary_json)) {
+    table += fmt::format("  {:<16} {:>12} {:>10} {:>12}  {}\n", row[0], row[1], row[2], row[3], row[4]);
+  }
+  return table;
 }
 
 }  // namespace fresco

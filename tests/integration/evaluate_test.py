@@ -18,7 +18,7 @@ class Evaluate(FrescoTest):
         output, _ = self.run_fresco("evaluate", *arguments, "--format", "json")
         return json.loads(output)
 
-    def check(self, flown, radius_m=100):
+    def check(self, flown, radius_m=100, sensors_m=SENSORS_M):
         """Eqs. (start pos), (stop pos), Dynamic-AoI and the sums, from the flight alone."""
         self.assertTrue(flown["arrived"])
         slots = flown["flight"]
@@ -33,7 +33,7 @@ class Evaluate(FrescoTest):
             self.assertTrue(0 <= after["column"] < 20 and 0 <= after["row"] < 20)
             expected = [age + 1 for age in now["aoi"]]
             if now["scheduled"]:
-                x, y = SENSORS_M[now["scheduled"] - 1]
+                x, y = sensors_m[now["scheduled"] - 1]
                 if math.hypot(25 * now["column"] - x, 25 * now["row"] - y) <= radius_m:
                     expected[now["scheduled"] - 1] = 1
             self.assertEqual(after["aoi"], expected)
@@ -57,6 +57,29 @@ class Evaluate(FrescoTest):
         baselines = [self.flight("--config", CI_CONFIG, "--policy", policy) for policy in ("aoi", "distance")]
         self.assertEqual([flown["total_aoi"] for flown in baselines],
                          [summary["baselines"][policy]["total_aoi"] for policy in ("aoi", "distance")])
+
+    def test_flies_the_exact_optimum_by_the_equations(self):
+        fields = [(SENSORS_M, 25, 3733), (SENSORS_M, 50, 3459), (SENSORS_M, 100, 2789), (SENSORS_M, 150, 2097),
+                  ([(125, 475), (100, 200), (75, 325)], 100, 985)]
+        for sensors_m, radius_m, total_aoi in fields:
+            config = self.folder / f"{total_aoi}.textproto"
+            config.write_text("scenario { coverage_radius_m: %d %s }" % (
+                radius_m, " ".join(f"sensor {{ x_m: {x} y_m: {y} }}" for x, y in sensors_m)))
+            flown = self.flight("--config", config, "--policy", "optimal")
+            self.check(flown, radius_m, sensors_m)
+            self.assertTrue(flown["optimal"])
+            self.assertEqual(flown["total_aoi"], total_aoi)
+            self.assertEqual(flown["lower_bound_total_aoi"], total_aoi)
+
+    def test_ends_the_search_for_the_optimum_at_its_limits_with_a_flight_and_a_bound(self):
+        large = ["--config", QUICK, "--set", "scenario.coverage_radius_m=150", "--set", "scenario.slots=200", "--set",
+                 "scenario.initial_energy_j=50000"]
+        for limit in (["--time-limit-s", "0.01"], ["--memory-limit-mb", "1"]):
+            flown = self.flight(*large, "--policy", "optimal", *limit)
+            self.assertTrue(flown["arrived"])
+            self.assertFalse(flown["optimal"])
+            self.assertGreater(flown["lower_bound_total_aoi"], 0)
+            self.assertLess(flown["lower_bound_total_aoi"], flown["total_aoi"])
 
     def test_names_a_policy_that_is_none(self):
         _, errors = self.run_fresco("evaluate", "--config", QUICK, "--policy", "best", expect=2)

@@ -5,6 +5,7 @@ import pathlib
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -29,6 +30,14 @@ def processes_with(argument):
     return [pid for pid in found if pid != os.getpid()]
 
 
+def wait_until(condition, what, timeout_s=60):
+    deadline = time.monotonic() + timeout_s
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {timeout_s} s for {what}")
+        time.sleep(0.01)
+
+
 class FrescoTest(unittest.TestCase):
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory(prefix="fresco-test-")
@@ -39,8 +48,8 @@ class FrescoTest(unittest.TestCase):
         return subprocess.Popen([BIN / program, *map(str, arguments)], stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True, **options)
 
-    def run_fresco(self, *arguments, expect=0, program="fresco"):
-        process = self.start(*arguments, program=program)
+    def run_fresco(self, *arguments, expect=0, program="fresco", **options):
+        process = self.start(*arguments, program=program, **options)
         output, errors = process.communicate(timeout=240)
         self.assertEqual(process.returncode, expect, f"{arguments}\n{output}\n{errors}")
         return output, errors

@@ -4,22 +4,13 @@ import os
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
-from fresco_process import CI_CONFIG, ROOT, FrescoTest, processes_with, read_log, url
+from fresco_process import CI_CONFIG, ROOT, FrescoTest, processes_with, read_log, url, wait_until
 
 SUMMARY_KEYS = {
     "run_id", "config_hash", "seed", "episodes", "transitions", "updates", "wall_s", "updates_per_s",
     "transitions_per_s", "weights_crc32c", "total_aoi", "average_aoi", "arrived", "baselines", "bus"}
-
-
-def wait_until(condition, what, timeout_s=60):
-    deadline = time.monotonic() + timeout_s
-    while not condition():
-        if time.monotonic() > deadline:
-            raise AssertionError(f"waited {timeout_s} s for {what}")
-        time.sleep(0.01)
 
 
 class Train(FrescoTest):
