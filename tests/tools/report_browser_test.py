@@ -62,7 +62,8 @@ class ReportPage(unittest.TestCase):
         options = webdriver.ChromeOptions()
         options.binary_location = program("chromium", "chromium")
         for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic",
-                         "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                         "--no-first-run", "--disable-background-networking", "--disable-component-update",
+                         "--disable-sync",
                          "--disable-dev-shm-usage", f"--user-data-dir={cls.folder / 'profile'}"):
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
@@ -186,7 +187,8 @@ class ReportPage(unittest.TestCase):
         ends = self.script("""
             const link = document.querySelector('#map > .link');
             const at = (x, y) => {
-              const point = new DOMPoint(x.baseVal.value, y.baseVal.value).matrixTransform(link.getScreenCTM());
+              const point = new DOMPoint(x.baseVal.value, y.baseVal.value)
+                  .matrixTransform(link.getScreenCTM());
               return [point.x, point.y];
             };
             const middle = element => {
@@ -311,7 +313,8 @@ class ReportPage(unittest.TestCase):
                   return channels(color)[3] === 0 ? ground(element.parentElement) : color;
                 };
                 const found = ['h1', '.summary', 'nav a', 'caption', 'td', 'thead th', 'figcaption p',
-                               '#outcome', '#play', '#choice', '#map-figure figcaption', 'dt', 'dd', '.hint', 'footer'];
+                               '#outcome', '#play', '#choice', '#map-figure figcaption', 'dt', 'dd',
+                               '.hint', 'footer'];
                 return found.map(name => {
                   const element = document.querySelector(name);
                   const pair = [light(getComputedStyle(element).color), light(ground(element))].sort();
