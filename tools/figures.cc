@@ -130,7 +130,9 @@ constexpr EnergyFigure kEnergyFigures[] = {
      "budget limits how far the UAV flies. DQN was trained at the marked budgets."},
 };
 
-std::string Number(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
+std::string Number(double value, int digits) {
+  return fmt::format("{:.{}f}", value, digits);
+}
 
 std::string WithSpread(const MeanEstimate& estimate, int digits) {
   return Number(estimate.mean, digits) +
@@ -278,7 +280,8 @@ class FigureWriter {
     LinePlot plot{figure.title, "energy budget (J)", "average AoI (slots)"};
     for (const Policy& policy : kPolicies) {
       const bool trained = policy.role == CurveRole::kDqn;
-      plot.curves.push_back({policy.name, policy.role, trained ? CurveShape::kLineAndMarkers : CurveShape::kSteps});
+      plot.curves.push_back(
+          {policy.name, policy.role, trained ? CurveShape::kLineAndMarkers : CurveShape::kSteps});
     }
     std::vector<std::vector<CsvCell>> rows;
     for (const double budget_j : BudgetsOf(figure.figure, groups)) {
@@ -334,11 +337,11 @@ class FigureWriter {
     const LearningCurve& curve = field.learning_curve();
     std::vector<std::vector<CsvCell>> rows;
     for (const LearningPoint& point : curve.points) {
-      rows.push_back({point.updates, point.average_aoi, int64_t{point.arrived},
-                      CellOf(curve.optimum_average_aoi)});
+      rows.push_back(
+          {point.updates, point.average_aoi, int64_t{point.arrived}, CellOf(curve.optimum_average_aoi)});
     }
-    WriteCsv(folder_ / "learning_curve.csv",
-             {"updates", "average_aoi", "arrived", "optimal_average_aoi"}, rows);
+    WriteCsv(folder_ / "learning_curve.csv", {"updates", "average_aoi", "arrived", "optimal_average_aoi"},
+             rows);
     Draw(DrawLinePlot(LearningCurvePlot(curve)), "learning_curve", "Learning curve",
          "One greedy flight of every evaluated version of one run's network.");
     constexpr const char* kFiles[] = {"flight_dqn", "flight_optimal", "flight_aoi", "flight_distance"};
@@ -409,11 +412,11 @@ int WriteFigures(const FiguresOptions& options) {
   const Experiment base = BaseExperiment(options);
   const PaperStudy study = MakePaperStudy(base, ScopeOf(options));
   const Path folder(options.out);
-  const std::vector<StudyResult> results =
-      RunStudy(study.jobs, {folder / "runs", options.parallel});
+  const std::vector<StudyResult> results = RunStudy(study.jobs, {folder / "runs", options.parallel});
   FigureWriter writer(folder, base, study, results);
   if (!writer.Write()) {
-    throw Failure("the numbers are in " + folder.string() + ", but not every picture: " + writer.picture_error());
+    throw Failure("the numbers are in " + folder.string() +
+                  ", but not every picture: " + writer.picture_error());
   }
   fmt::print("figures, tables and report.html are in {}\n", folder.string());
   return 0;

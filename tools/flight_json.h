@@ -12,6 +12,6 @@ namespace fresco {
 /// one {slot, column, row, move, scheduled, aoi} a slot, aoi at the beginning of the slot. With a plan
 /// also optimal, lower_bound_total_aoi and lower_bound_average_aoi.
 std::string FlightJson(const World& world, const Flight& flight, const std::string& policy,
-                       const std::optional<Plan>& plan);
+                       const std::optional<Plan>& plan = std::nullopt);
 
 }  // namespace fresco

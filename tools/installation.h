@@ -14,6 +14,8 @@ std::filesystem::path SiblingProgram(const std::string& name);
 std::string ConfigPath(const std::string& name);
 
 /// The one that is used where none is named: quick.textproto.
-inline std::string DefaultConfigPath() { return ConfigPath("quick.textproto"); }
+inline std::string DefaultConfigPath() {
+  return ConfigPath("quick.textproto");
+}
 
 }  // namespace fresco

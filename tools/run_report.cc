@@ -116,9 +116,9 @@ void WriteRunReport(const Path& folder) {
   contents.tables = {PolicyTable(run.summary())};
   if (!run.learning_curve().points.empty()) {
     try {
-      contents.figures.push_back(
-          WriteFigure(DrawLinePlot(LearningCurvePlot(run.learning_curve())), folder / "learning_curve",
-                      "Learning curve", "One greedy flight of every evaluated version of the network."));
+      contents.figures.push_back(WriteFigure(DrawLinePlot(LearningCurvePlot(run.learning_curve())),
+                                             folder / "learning_curve", "Learning curve",
+                                             "One greedy flight of every evaluated version of the network."));
     } catch (const Error& error) {
       spdlog::warn("report.html is without the learning curve: {}", error.what());
     }
