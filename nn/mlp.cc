@@ -49,11 +49,6 @@ Vector InitialParameters(const MlpShape& shape, uint64_t seed) {
     for (int64_t i = shape.weights_offset(layer); i < shape.biases_offset(layer); ++i) {
       parameters(i) = static_cast<float>((2 * stream.NextUniform() - 1) * bound);
     }
-    const bool hidden = layer + 1 < shape.layers();
-    const double bias_bound = hidden ? 1 / std::sqrt(static_cast<double>(shape.layer_inputs(layer))) : 0;
-    for (int64_t i = shape.biases_offset(layer); i < shape.weights_offset(layer + 1); ++i) {
-      parameters(i) = static_cast<float>((2 * stream.NextUniform() - 1) * bias_bound);
-    }
   }
   return parameters;
 }

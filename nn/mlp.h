@@ -43,10 +43,8 @@ class MlpShape {
   std::vector<int64_t> offsets_;  // where each layer begins; one more entry for the end
 };
 
-/// He-uniform weights, U(-sqrt(6 / inputs), sqrt(6 / inputs)), and biases of the hidden layers in
-/// U(-1 / sqrt(inputs), 1 / sqrt(inputs)): with a handful of small inputs, zero biases would leave the
-/// kinks of all units at one point. Zero biases of the output. Drawn from the counter-based stream of
-/// `seed`: version 0 of both networks.
+/// He-uniform weights, U(-sqrt(6 / inputs), sqrt(6 / inputs)), and zero biases, drawn from the
+/// counter-based stream of `seed`: version 0 of both networks.
 Vector InitialParameters(const MlpShape& shape, uint64_t seed);
 
 /// The activations of one forward pass, reused from pass to pass: no allocation once warm.

@@ -217,11 +217,14 @@ class FigureWriter {
     contents_.tables.push_back(TableOf(figure, groups));
     LinePlot plot{figure.title, figure.x_label, "average AoI (slots)"};
     plot.integer_x_tics = true;
+    plot.least_y = 0;
     for (const Policy& policy : kPolicies) {
       Curve curve{policy.name, policy.role};
+      constexpr double kAside = 0.05;  // so that the spreads of several policies can be told apart
+      const double aside = kAside * (static_cast<double>(plot.curves.size()) - 1.5);
       for (const Group& group : groups) {
         const MeanEstimate estimate = group.Average(policy);
-        curve.x.push_back(group.x);
+        curve.x.push_back(group.x + aside);
         curve.y.push_back(estimate.mean);
         curve.half_widths.push_back(estimate.half_width.value_or(0));
       }
@@ -348,7 +351,7 @@ class FigureWriter {
     for (size_t i = 0; i < field.flights().size(); ++i) {
       const ReportFlight& flight = field.flights()[i];
       WriteFlightCsv(folder_ / fmt::format("{}.csv", kFiles[i]), flight.flight);
-      const std::string title = "Flight of " + (i == 0 ? std::string("the trained policy") : flight.name);
+      const std::string title = "Flight: " + flight.name;
       Draw(DrawFlightMap(title, field.world(), flight.flight), kFiles[i], title,
            "The path's colour is the slot; a dot joined with a sensor is a collection.");
     }

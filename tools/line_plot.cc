@@ -73,7 +73,9 @@ Range YRange(const LinePlot& plot) {
   for (const ReferenceLine& reference : plot.references) {
     range.Add(reference.y);
   }
-  return range.Padded(0.05, top_marks ? 0.1 : 0.05);
+  Range padded = range.Padded(0.05, top_marks ? 0.1 : 0.05);
+  padded.low = std::max(padded.low, plot.least_y.value_or(padded.low));
+  return padded;
 }
 
 /// A step of 1, 2 or 5 times a power of ten with at most ten tics in the range, not below one.

@@ -37,6 +37,8 @@ struct LinePlot {
   std::vector<Curve> curves{};  ///< later ones are drawn over earlier ones; the legend has their order
   std::vector<ReferenceLine> references{};
   bool integer_x_tics = false;
+  /// y can't be smaller: the axis does not go below it, though a spread might.
+  std::optional<double> least_y{};
   /// Positive: the axis on the right shows how much above it a value is, in percent.
   std::optional<double> gap_base{};
 };

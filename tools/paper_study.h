@@ -17,7 +17,7 @@ struct StudyScope {
   int radius_at_counts_cells = 4;
   int deployments = 3;  ///< random_sensors.seed 1, 2, ...
   /// Budgets as shares of the way from the least energy that any flight needs to the most it can use.
-  std::vector<double> budget_shares = {0, 0.25, 0.5, 0.75, 1};
+  std::vector<double> budget_shares = {0, 0.25, 0.5, 1};
 };
 
 /// What a point of the study belongs to.

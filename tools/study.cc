@@ -14,6 +14,7 @@
 #include "core/stop_signal.h"
 #include "tools/live_line.h"
 #include "tools/training_run.h"
+#include "uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -21,7 +22,11 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-StudyResult ResultOf(const Json& summary) {
+StudyResult ResultOf(const Json& summary, const Path& folder) {
+  if (summary.at("lower_bound_average_aoi").is_null()) {
+    throw Failure(
+        fmt::format("the search for the optimum of {} failed; see its learner.log", folder.string()));
+  }
   const Json& baselines = summary.at("baselines");
   StudyResult result;
   result.arrived = summary.at("arrived").get<bool>();
@@ -62,7 +67,7 @@ class Study {
       : jobs_(jobs), options_(options), results_(jobs.size()), line_(true) {
     for (size_t job = 0; job < jobs_.size(); ++job) {
       if (const auto summary = CompleteSummary(FolderOf(job), jobs_[job])) {
-        results_[job] = ResultOf(*summary);
+        results_[job] = ResultOf(*summary, FolderOf(job));
       } else {
         waiting_.push_back(job);
       }
@@ -126,7 +131,7 @@ class Study {
                                 (FolderOf(running.job) / "learner.log").string()));
     }
     if (status == 0) {
-      results_[running.job] = ResultOf(summary);
+      results_[running.job] = ResultOf(summary, FolderOf(running.job));
       ++done_;
     }
     running_[place].reset();

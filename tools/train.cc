@@ -10,6 +10,7 @@
 #include "msgs/settings.h"
 #include "tools/installation.h"
 #include "tools/live_line.h"
+#include "tools/run_report.h"
 #include "tools/subcommands.h"
 #include "tools/train_display.h"
 #include "tools/training_run.h"
@@ -76,11 +77,13 @@ int Train(const TrainOptions& options) {
   TrainingRun run(experiment, folder);
   const int status = MindRun(run);
   const std::string summary = run.Summary();
+  WriteRunReport(folder);
   fmt::print("{}", text ? ResultTable(summary) : summary);
   if (status != 0) {
     fmt::print(stderr, "fresco: the run was interrupted; what it learned so far is in {}\n", folder.string());
   } else if (text) {
-    fmt::print("\nfly it: tools/fresco evaluate --policy {}\n", folder.string());
+    fmt::print("\nlook at it: {}\nfly it:     tools/fresco evaluate --policy {}\n",
+               (folder / "report.html").string(), folder.string());
   }
   return status == 0 ? 0 : 1;
 }

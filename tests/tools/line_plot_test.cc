@@ -67,6 +67,16 @@ TEST(LinePlot, DrawsErrorBarsOnlyWhereTheSpreadIsKnown) {
   EXPECT_EQ(Count(with_two, "<g id=\"fresco_plot_"), 3);
 }
 
+TEST(LinePlot, KeepsTheAxisAboveTheLeastPossibleValue) {
+  LinePlot plot = TwoCurves();
+  plot.curves[0].half_widths = {40, 0, 0, 0};
+  EXPECT_EQ(Count(DrawLinePlot(plot).script, "set yrange [0:"), 0);
+  plot.least_y = 0;
+  EXPECT_EQ(Count(DrawLinePlot(plot).script, "set yrange [0:"), 1);
+  plot.least_y = -1000;  // far below: no empty space is shown
+  EXPECT_EQ(Count(DrawLinePlot(plot).script, "set yrange [-1000:"), 0);
+}
+
 TEST(LinePlot, FillsABandAroundTheCurve) {
   LinePlot plot = TwoCurves();
   plot.curves[0].spread = Spread::kBand;
