@@ -10,7 +10,8 @@ from fresco_process import CI_CONFIG, ROOT, FrescoTest, processes_with, read_log
 
 SUMMARY_KEYS = {
     "run_id", "config_hash", "seed", "episodes", "transitions", "updates", "wall_s", "updates_per_s",
-    "transitions_per_s", "weights_crc32c", "total_aoi", "average_aoi", "arrived", "baselines", "bus"}
+    "transitions_per_s", "weights_crc32c", "total_aoi", "average_aoi", "arrived",
+    "optimal_total_aoi", "gap_percent", "baselines", "bus"}
 
 
 class Train(FrescoTest):
@@ -21,6 +22,8 @@ class Train(FrescoTest):
             self.assertLessEqual(SUMMARY_KEYS, set(summary))
             self.assertEqual(summary["episodes"], 400)
             self.assertTrue(summary["arrived"])
+            self.assertEqual(summary["optimal_total_aoi"], 2789)
+            self.assertAlmostEqual(summary["gap_percent"], 100 * (summary["total_aoi"] / 2789 - 1), places=6)
         other = self.train(17301, "seed-2", "--seed", 2)
         self.assertNotEqual(other["weights_crc32c"], summaries[0]["weights_crc32c"])
 
@@ -72,7 +75,8 @@ class Train(FrescoTest):
         self.assertEqual(process.returncode, 1, errors)
         summary = json.loads(output)
         self.assertFalse(summary["completed"])
-        self.assertLessEqual({"config.textproto", "metrics.csv", "best.network", "final.network", "summary.json"},
+        self.assertLessEqual({"config.textproto", "metrics.csv", "best.network", "final.network", "optimum.json",
+                              "report.html", "summary.json"},
                              {path.name for path in folder.iterdir()})
         self.assertEqual(processes_with(str(folder)) + processes_with(":17304"), [])
 
