@@ -42,6 +42,7 @@ PlannerProblem::PlannerProblem(const World& world)
       hovering_is_dearer_(world.hovering_energy_j() >= world.flying_energy_j()) {
   TakeSensors();
   TakeEnergies();
+  TakeMoves();
 }
 
 void PlannerProblem::TakeSensors() {
@@ -83,10 +84,16 @@ void PlannerProblem::TakeEnergies() {
   }
 }
 
-int PlannerProblem::After(int cell, Move move) const {
-  const Cell from = CellAt(cell);
-  const Cell to = world_->After(from, move);
-  return move != Move::kHover && to == from ? -1 : world_->CellIndex(to);
+void PlannerProblem::TakeMoves() {
+  after_.assign(static_cast<size_t>(cells()) * kMoves, -1);
+  for (int cell = 0; cell < cells(); ++cell) {
+    for (const Move move : kAllMoves) {
+      const Cell to = world_->After(CellAt(cell), move);
+      if (move == Move::kHover || to != CellAt(cell)) {
+        after_[static_cast<size_t>(cell) * kMoves + static_cast<size_t>(move)] = world_->CellIndex(to);
+      }
+    }
+  }
 }
 
 int PlannerProblem::DearAllowance(int slot, int cell) const {

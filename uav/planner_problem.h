@@ -49,7 +49,9 @@ class PlannerProblem {
     return {cell % world_->scenario().columns, cell / world_->scenario().columns};
   }
   /// The cell after a move, -1 where it leaves the grid.
-  int After(int cell, Move move) const;
+  int After(int cell, Move move) const {
+    return after_[static_cast<size_t>(cell) * kMoves + static_cast<size_t>(move)];
+  }
 
   /// Of hovering and flying a slot, one is the dearer in energy; flights differ in how many slots they
   /// spend on it. Whether the budget limits that number at all:
@@ -64,8 +66,10 @@ class PlannerProblem {
  private:
   void TakeSensors();
   void TakeEnergies();
+  void TakeMoves();
 
   const World* world_;
+  std::vector<int32_t> after_;  // by cell and move
   std::vector<int> sensors_;
   std::vector<int64_t> weights_;
   bool has_exact_weights_ = false;

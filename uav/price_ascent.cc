@@ -1,35 +1,40 @@
 #include "uav/price_ascent.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 namespace fresco {
 namespace {
 
 constexpr float kNever = 1e30f;
 constexpr int kSweepsBetweenChecks = 8;
-constexpr double kLeastGain = 0.004;  // of the bound, in so many sweeps
+constexpr double kLeastGain = 0.01;  // of the bound, in so many sweeps
 constexpr int64_t kMostWork = int64_t{1} << 35;
 constexpr int64_t kUnitsPerEntry = 12;  // of a sweep in one direction
 
-// Least of a[i] + b[i]. In lanes, as the compiler may not reorder a minimum of floats by itself.
-float LeastSum(const float* a, const float* b, int size) {
-  constexpr int kLanes = 8;
+// As the instruction for many floats at a time does it; std::min, by reference, keeps gcc from it.
+inline float Less(float a, float b) {
+  return a < b ? a : b;
+}
+
+// The least of value(0) to value(size - 1). In lanes, as the compiler may not reorder a minimum of
+// floats by itself.
+template <class Value>
+float Least(size_t size, const Value& value) {
+  constexpr size_t kLanes = 8;
   float lanes[kLanes];
   std::fill_n(lanes, kLanes, kNever);
-  int begin = 0;
+  size_t begin = 0;
   for (; begin + kLanes <= size; begin += kLanes) {
-    for (int i = 0; i < kLanes; ++i) {
-      const float sum = a[begin + i] + b[begin + i];
-      lanes[i] = sum < lanes[i] ? sum : lanes[i];
+    for (size_t i = 0; i < kLanes; ++i) {
+      lanes[i] = Less(value(begin + i), lanes[i]);
     }
   }
-  float least = *std::min_element(lanes, lanes + kLanes);
-  for (; begin < size; ++begin) {
-    least = std::min(least, a[begin] + b[begin]);
+  for (size_t i = 0; begin + i < size; ++i) {
+    lanes[i] = Less(value(begin + i), lanes[i]);
   }
-  return least;
+  return *std::min_element(lanes, lanes + kLanes);
 }
 
 }  // namespace
@@ -41,6 +46,7 @@ PriceAscent::PriceAscent(const PlannerProblem& problem, const SlotCells& slot_ce
       aoi_limit_(aoi_limit),
       meter_(&meter),
       sensors_(static_cast<size_t>(problem.size())),
+      widest_(static_cast<size_t>(Width(problem.slots()))),
       dear_step_(static_cast<double>(*std::max_element(problem.weights().begin(), problem.weights().end()))) {
   prices_.presence.assign(slot_cells.places() * sensors_, 0);
   prices_.transmission.assign(slot_cells.places(), 0);
@@ -52,12 +58,12 @@ PriceAscent::PriceAscent(const PlannerProblem& problem, const SlotCells& slot_ce
   }
   backward_.resize(entries);
   forward_.resize(entries);
-  const auto widest = static_cast<size_t>(Width(problem.slots()));
-  best_next_.resize(sensors_ * widest);
-  pushed_.resize(sensors_ * widest);
-  presence_cost_.resize(sensors_);
+  best_next_.resize(sensors_ * widest_);
+  pushed_.resize(sensors_ * widest_);
+  past_.resize(widest_);
+  marginals_.resize(sensors_);
   for (const int64_t weight : problem.weights()) {
-    for (size_t aoi = 1; aoi <= widest; ++aoi) {
+    for (size_t aoi = 1; aoi <= widest_; ++aoi) {
       own_cost_.push_back(static_cast<float>(weight) * static_cast<float>(aoi));
     }
   }
@@ -169,72 +175,78 @@ void PriceAscent::TakeBestNext(int slot, int cell) {
     std::fill(best_next_.begin(), best_next_.end(), 0.0f);
     return;
   }
-  const size_t size = sensors_ * static_cast<size_t>(Width(slot + 1));
-  std::fill_n(best_next_.begin(), size, kNever);
+  // Five neighbours at a time; where there are fewer, some count twice.
+  std::array<const float*, kMoves> next;
+  std::array<float, kMoves> price;
+  size_t count = 0;
   for (const Move move : kAllMoves) {
     const int after = problem_->After(cell, move);
     const int number = after < 0 ? -1 : slot_cells_->Number(slot + 1, after);
-    if (number < 0) {
-      continue;
+    if (number >= 0) {
+      next[count] = backward_.data() + Offset(slot + 1, static_cast<size_t>(number));
+      price[count++] = DearShare(move);
     }
-    const float* next = backward_.data() + Offset(slot + 1, static_cast<size_t>(number));
-    const float price = DearShare(move);
-    for (size_t i = 0; i < size; ++i) {
-      const float cost = next[i] + price;
-      best_next_[i] = cost < best_next_[i] ? cost : best_next_[i];
-    }
+  }
+  for (size_t i = count; i < kMoves; ++i) {
+    next[i] = next[0];
+    price[i] = price[0];
+  }
+  const size_t size = sensors_ * static_cast<size_t>(Width(slot + 1));
+  float* best = best_next_.data();
+  for (size_t i = 0; i < size; ++i) {
+    const float first = Less(next[0][i] + price[0], next[1][i] + price[1]);
+    const float second = Less(next[2][i] + price[2], next[3][i] + price[3]);
+    best[i] = Less(Less(first, second), next[4][i] + price[4]);
   }
 }
 
-// With `gain` what a sensor gains there by transmitting, only the one that gains most can: a price
-// between the largest gain and the next one makes it so. The prices of presence then level the sensors'
-// costs of the best flights through this place.
+// The costs of one sensor's best flights through a place, unserved there, and what it gains by being
+// served. past_ is used up.
+PriceAscent::Marginals PriceAscent::MarginalsOf(size_t sensor, const float* forward, int slot, bool covered) {
+  const auto width = static_cast<size_t>(Width(slot));
+  const auto next_width = static_cast<size_t>(Width(slot + 1));
+  const float* own_cost = own_cost_.data() + sensor * widest_;
+  const float* later = best_next_.data() + sensor * next_width;
+  for (size_t i = 0; i < width; ++i) {
+    past_[i] = forward[i] + own_cost[i];
+  }
+  const size_t growing = std::min(width, next_width - 1);
+  Marginals marginals{Least(growing, [&](size_t i) { return past_[i] + later[i + 1]; }), 0};
+  if (growing < width) {
+    marginals.unserved = std::min(marginals.unserved, past_[growing] + later[growing]);
+  }
+  if (covered) {
+    const float served = Least(width, [&](size_t i) { return past_[i]; }) + later[0];
+    marginals.gain = std::max(0.0f, marginals.unserved - served);
+  }
+  return marginals;
+}
+
+// Of the sensors that gain by transmitting there, only the one that gains most can: a price between the
+// largest gain and the next one makes it so. The prices of presence then level the sensors' costs.
 void PriceAscent::Reprice(int slot, size_t number, int cell) {
   if (slot == problem_->slots()) {
     return;  // over the stop in any case
   }
-  const auto width = static_cast<size_t>(Width(slot));
-  const auto next_width = static_cast<size_t>(Width(slot + 1));
-  const float* forward = forward_.data() + Offset(slot, number);
-  const size_t widest = own_cost_.size() / sensors_;
   float largest_gain = 0;
   float next_gain = 0;
   for (size_t n = 0; n < sensors_; ++n) {
-    // pushed_: the cost up to here and of this slot.
-    float* past = pushed_.data() + n * next_width;
-    float least_past = kNever;
-    for (size_t i = 0; i < width; ++i) {
-      past[i] = forward[n * width + i] + own_cost_[n * widest + i];
-    }
-    const float* later = best_next_.data() + n * next_width;
-    const size_t grown = std::min(width, next_width - 1);
-    float unserved = LeastSum(past, later + 1, static_cast<int>(grown));
-    for (size_t i = grown; i < width; ++i) {
-      unserved = std::min(unserved, past[i] + later[next_width - 1]);
-    }
-    presence_cost_[n] = unserved;
-    if (problem_->Covers(cell, static_cast<int>(n))) {
-      for (size_t i = 0; i < width; ++i) {
-        least_past = std::min(least_past, past[i]);
-      }
-      const float gain = std::max(0.0f, unserved - (least_past + later[0]));
-      next_gain = std::max(next_gain, std::min(gain, largest_gain));
-      largest_gain = std::max(largest_gain, gain);
-      pushed_[n * next_width] = gain;  // from here on: what it gains
-    } else {
-      pushed_[n * next_width] = 0;
-    }
+    const float* forward = forward_.data() + Offset(slot, number) + n * static_cast<size_t>(Width(slot));
+    marginals_[n] = MarginalsOf(n, forward, slot, problem_->Covers(cell, static_cast<int>(n)));
+    next_gain = std::max(next_gain, std::min(marginals_[n].gain, largest_gain));
+    largest_gain = std::max(largest_gain, marginals_[n].gain);
   }
   const size_t place = slot_cells_->FirstPlace(slot) + number;
   const float transmission = next_gain > 0 ? (largest_gain + next_gain) / 2 : 0;
-  float sum = -transmission;
-  for (size_t n = 0; n < sensors_; ++n) {
-    presence_cost_[n] -= std::max(0.0f, pushed_[n * next_width] - transmission);
-    sum += presence_cost_[n];
-  }
   prices_.transmission[place] = transmission;
+  float sum = -transmission;
+  float* presence = prices_.presence.data() + place * sensors_;
   for (size_t n = 0; n < sensors_; ++n) {
-    prices_.presence[place * sensors_ + n] = sum / static_cast<float>(sensors_) - presence_cost_[n];
+    presence[n] = std::max(0.0f, marginals_[n].gain - transmission) - marginals_[n].unserved;
+    sum -= presence[n];
+  }
+  for (size_t n = 0; n < sensors_; ++n) {
+    presence[n] += sum / static_cast<float>(sensors_);
   }
 }
 
@@ -242,20 +254,20 @@ void PriceAscent::StoreBackward(int slot, size_t number, int cell) {
   const bool last_slot = slot == problem_->slots();
   const auto width = static_cast<size_t>(Width(slot));
   const size_t next_width = last_slot ? width : static_cast<size_t>(Width(slot + 1));
-  const size_t widest = own_cost_.size() / sensors_;
+  const size_t growing = std::min(width, next_width - 1);
   const size_t place = slot_cells_->FirstPlace(slot) + number;
-  float* backward = backward_.data() + Offset(slot, number);
   for (size_t n = 0; n < sensors_; ++n) {
     const float* later = best_next_.data() + n * next_width;
+    const float* own_cost = own_cost_.data() + n * widest_;
     const float price = prices_.presence[place * sensors_ + n];
-    const float served = !last_slot && problem_->Covers(cell, static_cast<int>(n))
-                             ? later[0] + prices_.transmission[place]
-                             : kNever;
-    const size_t grown = std::min(width, next_width - 1);
-    for (size_t i = 0; i < width; ++i) {
-      const float unserved = later[i < grown ? i + 1 : next_width - 1];
-      const float least = served < unserved ? served : unserved;
-      backward[n * width + i] = own_cost_[n * widest + i] + price + least;
+    const bool covered = !last_slot && problem_->Covers(cell, static_cast<int>(n));
+    const float served = covered ? later[0] + prices_.transmission[place] : kNever;
+    float* backward = backward_.data() + Offset(slot, number) + n * width;
+    for (size_t i = 0; i < growing; ++i) {
+      backward[i] = own_cost[i] + price + Less(served, later[i + 1]);
+    }
+    if (growing < width) {
+      backward[growing] = own_cost[growing] + price + Less(served, later[growing]);
     }
   }
 }
@@ -263,23 +275,25 @@ void PriceAscent::StoreBackward(int slot, size_t number, int cell) {
 void PriceAscent::PushForward(int slot, size_t number, int cell) {
   const auto width = static_cast<size_t>(Width(slot));
   const auto next_width = static_cast<size_t>(Width(slot + 1));
-  const size_t widest = own_cost_.size() / sensors_;
+  const size_t growing = std::min(width, next_width - 1);
   const size_t place = slot_cells_->FirstPlace(slot) + number;
-  const float* forward = forward_.data() + Offset(slot, number);
   for (size_t n = 0; n < sensors_; ++n) {
-    float* pushed = pushed_.data() + n * next_width;
+    const float* forward = forward_.data() + Offset(slot, number) + n * width;
+    const float* own_cost = own_cost_.data() + n * widest_;
     const float price = prices_.presence[place * sensors_ + n];
-    float least = kNever;
-    pushed[next_width - 1] = kNever;
     for (size_t i = 0; i < width; ++i) {
-      const float cost = forward[n * width + i] + own_cost_[n * widest + i] + price;
-      float& target = pushed[std::min(i + 1, next_width - 1)];
-      target = i + 1 < next_width ? cost : std::min(target, cost);
-      least = std::min(least, cost);
+      past_[i] = forward[i] + own_cost[i] + price;
     }
-    const bool covered = problem_->Covers(cell, static_cast<int>(n));
-    const float served = covered ? least + prices_.transmission[place] : kNever;
-    pushed[0] = next_width == 1 ? std::min(pushed[0], served) : served;
+    float* pushed = pushed_.data() + n * next_width;
+    pushed[0] = kNever;
+    std::copy_n(past_.begin(), growing, pushed + 1);
+    if (growing < width) {
+      pushed[growing] = std::min(pushed[growing], past_[growing]);  // it grows no further
+    }
+    if (problem_->Covers(cell, static_cast<int>(n))) {
+      const float least = Least(width, [&](size_t i) { return past_[i]; });
+      pushed[0] = std::min(pushed[0], least + prices_.transmission[place]);
+    }
   }
   for (const Move move : kAllMoves) {
     const int after = problem_->After(cell, move);
@@ -290,8 +304,7 @@ void PriceAscent::PushForward(int slot, size_t number, int cell) {
     float* target = forward_.data() + Offset(slot + 1, static_cast<size_t>(next));
     const float price = DearShare(move);
     for (size_t i = 0; i < sensors_ * next_width; ++i) {
-      const float cost = pushed_[i] + price;
-      target[i] = cost < target[i] ? cost : target[i];
+      target[i] = Less(pushed_[i] + price, target[i]);
     }
   }
 }

@@ -39,15 +39,21 @@ class PriceAscent {
   static int64_t Bytes(const PlannerProblem& problem, const SlotCells& slot_cells, int aoi_limit);
 
  private:
+  /// Of a sensor's flights through a place.
+  struct Marginals {
+    float unserved = 0;  ///< least cost, not served there
+    float gain = 0;      ///< how much less it is when served there; at least zero
+  };
+
   int Width(int slot) const;
   size_t Offset(int slot, size_t number) const;
-  double BackAndForth();
   /// The bound at the present dear price, prices of places as they are.
   double Evaluate();
   void ImproveDearPrice();
   void SweepBackward(bool reprice);
   void SweepForward();
   void TakeBestNext(int slot, int cell);
+  Marginals MarginalsOf(size_t sensor, const float* forward, int slot, bool covered);
   void Reprice(int slot, size_t number, int cell);
   void StoreBackward(int slot, size_t number, int cell);
   void PushForward(int slot, size_t number, int cell);
@@ -58,17 +64,19 @@ class PriceAscent {
   int aoi_limit_;
   WorkMeter* meter_;
   size_t sensors_;
+  size_t widest_;
   CellPrices prices_;
   double dear_step_ = 0;
   std::vector<size_t> offsets_;  // by slot
   // By place, sensor and AoI:
   std::vector<float> backward_;  // least cost of slots t..T, the slot's own included
   std::vector<float> forward_;   // least cost of slots 1..t-1 for coming there with that AoI
-  // Of the place in work, by sensor and AoI in the next slot:
-  std::vector<float> best_next_;
-  std::vector<float> pushed_;
-  std::vector<float> presence_cost_;  // by sensor
-  std::vector<float> own_cost_;       // by sensor and AoI
+  std::vector<float> own_cost_;  // of a slot, by sensor and AoI
+  // Of the place in work:
+  std::vector<float> best_next_;  // by sensor and AoI in the next slot
+  std::vector<float> pushed_;     // likewise
+  std::vector<float> past_;       // of one sensor, by AoI
+  std::vector<Marginals> marginals_;  // by sensor
 };
 
 }  // namespace fresco
