@@ -12,7 +12,7 @@ CostToGo::CostToGo(const PlannerProblem& problem, const SlotCells& slot_cells, c
     offsets_[static_cast<size_t>(slot)] = size;
     size += slot_cells.At(slot).size() * static_cast<size_t>(Width(slot));
   }
-  costs_.resize(size);
+  costs_ = std::make_unique_for_overwrite<int32_t[]>(size);
   best_next_.assign(static_cast<size_t>(Width(problem.slots())), 0);
   for (int slot = problem.slots(); slot >= 1; --slot) {
     for (int number = 0; number < static_cast<int>(slot_cells.At(slot).size()); ++number) {
@@ -43,7 +43,7 @@ size_t CostToGo::Offset(int slot, int number) const {
 }
 
 CostToGo::Place CostToGo::PlaceOf(int slot, int number) const {
-  return {costs_.data() + Offset(slot, number), options_.lowest_aoi, HighestAoi(slot)};
+  return {costs_.get() + Offset(slot, number), options_.lowest_aoi, HighestAoi(slot)};
 }
 
 // best_next_: for each AoI in the next slot, the cheapest cell to be over then.
@@ -56,7 +56,7 @@ void CostToGo::TakeBestNext(const PlannerProblem& problem, int slot, int cell, i
     if (number < 0) {
       continue;
     }
-    const int32_t* next = costs_.data() + Offset(slot + 1, number);
+    const int32_t* next = costs_.get() + Offset(slot + 1, number);
     const int32_t price = problem.IsDear(move) ? dear_share : 0;
     for (int i = 0; i < width; ++i) {
       best_next_[static_cast<size_t>(i)] = std::min(best_next_[static_cast<size_t>(i)], next[i] + price);
@@ -77,7 +77,7 @@ void CostToGo::ComputePlace(const PlannerProblem& problem, const WholePrices& pr
   const int width = Width(slot);
   const int last_next = (last_slot ? width : Width(slot + 1)) - 1;
   const int32_t* later = best_next_.data();
-  int32_t* cost = costs_.data() + Offset(slot, number);
+  int32_t* cost = costs_.get() + Offset(slot, number);
   const int growing = std::min(width, last_next);
   for (int i = 0; i < growing; ++i) {
     cost[i] = options_.weight * (i + options_.lowest_aoi) + presence + std::min(later[i + 1], served);

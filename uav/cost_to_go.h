@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "uav/slot_cells.h"
@@ -73,7 +74,7 @@ class CostToGo {
   const SlotCells* slot_cells_;
   CostToGoOptions options_;
   std::vector<size_t> offsets_;  // by slot
-  std::vector<int32_t> costs_;
+  std::unique_ptr<int32_t[]> costs_;
   std::vector<int32_t> best_next_;  // while it is computed: by AoI in the next slot
 };
 

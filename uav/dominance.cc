@@ -14,21 +14,20 @@ constexpr double kNever = 1e300;
 // Breadth first from all cells that cover the sensor; flights may go anywhere on the grid, so the
 // distances are exact.
 CoverageDistances::CoverageDistances(const PlannerProblem& problem, WorkMeter& meter)
-    : sensors_(static_cast<size_t>(problem.size())),
-      distances_(sensors_ * static_cast<size_t>(problem.cells()), static_cast<int16_t>(problem.slots())) {
+    : cells_(static_cast<size_t>(problem.cells())) {
   constexpr int64_t kUnitsPerCell = 64;
+  distances_.reserve(static_cast<size_t>(problem.size()) * cells_);
   std::vector<int> front;
   for (int sensor = 0; sensor < problem.size(); ++sensor) {
     if (!meter.Count(problem.cells() * kUnitsPerCell)) {
       return;
     }
-    const auto distance = [&](int cell) -> int16_t& {
-      return distances_[static_cast<size_t>(cell) * sensors_ + static_cast<size_t>(sensor)];
-    };
+    distances_.resize(distances_.size() + cells_, static_cast<int16_t>(problem.slots()));
+    int16_t* distance = distances_.data() + static_cast<size_t>(sensor) * cells_;
     front.clear();
     for (int cell = 0; cell < problem.cells(); ++cell) {
       if (problem.Covers(cell, sensor)) {
-        distance(cell) = 0;
+        distance[cell] = 0;
         front.push_back(cell);
       }
     }
@@ -36,8 +35,8 @@ CoverageDistances::CoverageDistances(const PlannerProblem& problem, WorkMeter& m
       const int cell = front[i];
       for (const Move move : kAllMoves) {
         const int after = problem.After(cell, move);
-        if (after >= 0 && distance(after) > distance(cell) + 1) {
-          distance(after) = static_cast<int16_t>(distance(cell) + 1);
+        if (after >= 0 && distance[after] > distance[cell] + 1) {
+          distance[after] = static_cast<int16_t>(distance[cell] + 1);
           front.push_back(after);
         }
       }

@@ -19,12 +19,12 @@ class CoverageDistances {
   CoverageDistances(const PlannerProblem& problem, WorkMeter& meter);
 
   int At(int sensor, int cell) const {
-    return distances_[static_cast<size_t>(cell) * sensors_ + static_cast<size_t>(sensor)];
+    return distances_[static_cast<size_t>(sensor) * cells_ + static_cast<size_t>(cell)];
   }
 
  private:
-  size_t sensors_;
-  std::vector<int16_t> distances_;  // [cells x sensors]; the number of slots where it can't be covered
+  size_t cells_;
+  std::vector<int16_t> distances_;  // [sensors x cells]; the number of slots where it can't be covered
 };
 
 /// For the labels over one cell at the beginning of one slot.

@@ -40,13 +40,16 @@ void Round(const float* presence, float transmission, size_t sensors, double sca
   }
 }
 
-WholePrices ToWhole(const CellPrices& prices, const PlannerProblem& problem, TableUnits units) {
+WholePrices ToWhole(const CellPrices& prices, const PlannerProblem& problem, TableUnits units,
+                    WorkMeter& meter) {
   const auto sensors = static_cast<size_t>(problem.size());
   const double scale = std::ldexp(1.0, units.shift);
   const double largest = std::floor(kLargestPriceSum / 2 / problem.slots());
   WholePrices whole{std::vector<int32_t>(prices.presence.size()),
                     std::vector<int32_t>(prices.transmission.size())};
-  for (size_t place = 0; place < prices.transmission.size(); ++place) {
+  constexpr int64_t kUnitsPerPrice = 16;
+  const int64_t place_units = problem.size() * kUnitsPerPrice;
+  for (size_t place = 0; place < prices.transmission.size() && meter.Count(place_units); ++place) {
     Round(prices.presence.data() + place * sensors, prices.transmission[place], sensors, scale, largest,
           whole.presence.data() + place * sensors, &whole.transmission[place]);
   }
@@ -108,7 +111,7 @@ void LowerBound::AddTables(WorkMeter& meter) {
   {
     PriceAscent ascent(*problem_, *slot_cells_, aoi_limit_, meter);
     ascent.Run();
-    prices = ToWhole(ascent.prices(), *problem_, units_);
+    prices = ToWhole(ascent.prices(), *problem_, units_, meter);
   }
   dear_price_ = int64_t{prices.dear_share} * problem_->size();
   bytes_ += TableBytes();

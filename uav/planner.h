@@ -26,7 +26,7 @@ struct PlannerOptions {
   int64_t memory_bytes = int64_t{5} << 29;
   /// Asked about every 0.1 s or more often, counted in work and not by a clock; false stops the planner,
   /// which then returns at once. Empty: to the end.
-  std::function<bool(const PlannerProgress&)> keep_going;
+  std::function<bool(const PlannerProgress&)> keep_going = nullptr;
 };
 
 struct Plan {

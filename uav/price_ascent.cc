@@ -50,14 +50,14 @@ PriceAscent::PriceAscent(const PlannerProblem& problem, const SlotCells& slot_ce
       dear_step_(static_cast<double>(*std::max_element(problem.weights().begin(), problem.weights().end()))) {
   prices_.presence.assign(slot_cells.places() * sensors_, 0);
   prices_.transmission.assign(slot_cells.places(), 0);
-  size_t entries = 0;
   offsets_.assign(static_cast<size_t>(problem.slots()) + 1, 0);
   for (int slot = 1; slot <= problem.slots(); ++slot) {
-    offsets_[static_cast<size_t>(slot)] = entries;
-    entries += slot_cells.At(slot).size() * sensors_ * static_cast<size_t>(Width(slot));
+    offsets_[static_cast<size_t>(slot)] = entries_;
+    entries_ += slot_cells.At(slot).size() * sensors_ * static_cast<size_t>(Width(slot));
   }
-  backward_.resize(entries);
-  forward_.resize(entries);
+  // Not set to zero, which would take long for gigabytes, and nobody asked meanwhile.
+  backward_ = std::make_unique_for_overwrite<float[]>(entries_);
+  forward_ = std::make_unique_for_overwrite<float[]>(entries_);
   best_next_.resize(sensors_ * widest_);
   pushed_.resize(sensors_ * widest_);
   past_.resize(widest_);
@@ -94,7 +94,7 @@ void PriceAscent::Run() {
   for (int i = 0; problem_->energy_binds() && i < kSweepsBetweenChecks; ++i) {
     ImproveDearPrice();
   }
-  const auto sweep_units = static_cast<int64_t>(backward_.size()) * 2 * kUnitsPerEntry;
+  const auto sweep_units = static_cast<int64_t>(entries_) * 2 * kUnitsPerEntry;
   const int64_t most_sweeps = std::max<int64_t>(1, kMostWork / sweep_units);
   for (int64_t sweep = 1; sweep <= most_sweeps && !meter_->stopped(); ++sweep) {
     SweepForward();
@@ -154,10 +154,11 @@ void PriceAscent::SweepBackward(bool reprice) {
 }
 
 void PriceAscent::SweepForward() {
-  std::fill(forward_.begin(), forward_.end(), kNever);
-  std::fill_n(forward_.begin(), sensors_, 0.0f);
+  std::fill_n(forward_.get(), sensors_, 0.0f);  // slot 1 has one place, and AoI 1
   for (int slot = 1; slot < problem_->slots(); ++slot) {
     const std::vector<int32_t>& cells = slot_cells_->At(slot);
+    const size_t next_size = slot_cells_->At(slot + 1).size() * sensors_ * static_cast<size_t>(Width(slot + 1));
+    std::fill_n(forward_.get() + Offset(slot + 1, 0), next_size, kNever);
     for (size_t number = 0; number < cells.size(); ++number) {
       if (!meter_->Count(static_cast<int64_t>(sensors_) * Width(slot) * kUnitsPerEntry)) {
         return;
@@ -183,7 +184,7 @@ void PriceAscent::TakeBestNext(int slot, int cell) {
     const int after = problem_->After(cell, move);
     const int number = after < 0 ? -1 : slot_cells_->Number(slot + 1, after);
     if (number >= 0) {
-      next[count] = backward_.data() + Offset(slot + 1, static_cast<size_t>(number));
+      next[count] = backward_.get() + Offset(slot + 1, static_cast<size_t>(number));
       price[count++] = DearShare(move);
     }
   }
@@ -231,7 +232,7 @@ void PriceAscent::Reprice(int slot, size_t number, int cell) {
   float largest_gain = 0;
   float next_gain = 0;
   for (size_t n = 0; n < sensors_; ++n) {
-    const float* forward = forward_.data() + Offset(slot, number) + n * static_cast<size_t>(Width(slot));
+    const float* forward = forward_.get() + Offset(slot, number) + n * static_cast<size_t>(Width(slot));
     marginals_[n] = MarginalsOf(n, forward, slot, problem_->Covers(cell, static_cast<int>(n)));
     next_gain = std::max(next_gain, std::min(marginals_[n].gain, largest_gain));
     largest_gain = std::max(largest_gain, marginals_[n].gain);
@@ -262,7 +263,7 @@ void PriceAscent::StoreBackward(int slot, size_t number, int cell) {
     const float price = prices_.presence[place * sensors_ + n];
     const bool covered = !last_slot && problem_->Covers(cell, static_cast<int>(n));
     const float served = covered ? later[0] + prices_.transmission[place] : kNever;
-    float* backward = backward_.data() + Offset(slot, number) + n * width;
+    float* backward = backward_.get() + Offset(slot, number) + n * width;
     for (size_t i = 0; i < growing; ++i) {
       backward[i] = own_cost[i] + price + Less(served, later[i + 1]);
     }
@@ -278,7 +279,7 @@ void PriceAscent::PushForward(int slot, size_t number, int cell) {
   const size_t growing = std::min(width, next_width - 1);
   const size_t place = slot_cells_->FirstPlace(slot) + number;
   for (size_t n = 0; n < sensors_; ++n) {
-    const float* forward = forward_.data() + Offset(slot, number) + n * width;
+    const float* forward = forward_.get() + Offset(slot, number) + n * width;
     const float* own_cost = own_cost_.data() + n * widest_;
     const float price = prices_.presence[place * sensors_ + n];
     for (size_t i = 0; i < width; ++i) {
@@ -301,7 +302,7 @@ void PriceAscent::PushForward(int slot, size_t number, int cell) {
     if (next < 0) {
       continue;
     }
-    float* target = forward_.data() + Offset(slot + 1, static_cast<size_t>(next));
+    float* target = forward_.get() + Offset(slot + 1, static_cast<size_t>(next));
     const float price = DearShare(move);
     for (size_t i = 0; i < sensors_ * next_width; ++i) {
       target[i] = Less(pushed_[i] + price, target[i]);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "uav/slot_cells.h"
@@ -69,8 +70,9 @@ class PriceAscent {
   double dear_step_ = 0;
   std::vector<size_t> offsets_;  // by slot
   // By place, sensor and AoI:
-  std::vector<float> backward_;  // least cost of slots t..T, the slot's own included
-  std::vector<float> forward_;   // least cost of slots 1..t-1 for coming there with that AoI
+  size_t entries_ = 0;
+  std::unique_ptr<float[]> backward_;  // least cost of slots t..T, the slot's own included
+  std::unique_ptr<float[]> forward_;   // least cost of slots 1..t-1 for coming there with that AoI
   std::vector<float> own_cost_;  // of a slot, by sensor and AoI
   // Of the place in work:
   std::vector<float> best_next_;  // by sensor and AoI in the next slot

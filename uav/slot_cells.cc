@@ -5,15 +5,16 @@ namespace fresco {
 SlotCells::SlotCells(const PlannerProblem& problem, WorkMeter& meter)
     : cell_count_(static_cast<size_t>(problem.cells())),
       cells_(static_cast<size_t>(problem.slots()) + 1),
-      numbers_(cells_.size() * cell_count_, -1),
+      numbers_(std::make_unique_for_overwrite<int32_t[]>(cells_.size() * cell_count_)),
       first_places_(cells_.size() + 1, 0) {
   constexpr int64_t kUnitsPerCell = 16;
   for (int slot = 1; slot <= problem.slots() && meter.Count(problem.cells() * kUnitsPerCell); ++slot) {
     std::vector<int32_t>& cells = cells_[static_cast<size_t>(slot)];
+    int32_t* numbers = numbers_.get() + static_cast<size_t>(slot) * cell_count_;
     for (int cell = 0; cell < problem.cells(); ++cell) {
+      numbers[cell] = -1;
       if (problem.DearAllowance(slot, cell) >= 0) {
-        numbers_[static_cast<size_t>(slot) * cell_count_ + static_cast<size_t>(cell)] =
-            static_cast<int32_t>(cells.size());
+        numbers[cell] = static_cast<int32_t>(cells.size());
         cells.push_back(cell);
       }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "uav/planner_problem.h"
@@ -31,7 +32,7 @@ class SlotCells {
  private:
   size_t cell_count_;
   std::vector<std::vector<int32_t>> cells_;
-  std::vector<int32_t> numbers_;
+  std::unique_ptr<int32_t[]> numbers_;
   std::vector<size_t> first_places_;  // by slot, and one beyond
 };
 
