@@ -71,9 +71,10 @@ void CostToGo::ComputePlace(const PlannerProblem& problem, const WholePrices& pr
   const size_t place = slot_cells_->FirstPlace(slot) + static_cast<size_t>(number);
   const auto sensor = static_cast<size_t>(options_.sensor);
   const int32_t presence = prices.presence[place * static_cast<size_t>(problem.size()) + sensor];
-  const int32_t served = !last_slot && problem.Covers(cell, options_.sensor)
-                             ? best_next_[static_cast<size_t>(1 - options_.lowest_aoi)] + prices.transmission[place]
-                             : std::numeric_limits<int32_t>::max();
+  const int32_t served =
+      !last_slot && problem.Covers(cell, options_.sensor)
+          ? best_next_[static_cast<size_t>(1 - options_.lowest_aoi)] + prices.transmission[place]
+          : std::numeric_limits<int32_t>::max();
   const int width = Width(slot);
   const int last_next = (last_slot ? width : Width(slot + 1)) - 1;
   const int32_t* later = best_next_.data();

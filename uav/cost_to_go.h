@@ -37,10 +37,10 @@ struct WholePrices {
 };
 
 struct CostToGoOptions {
-  int sensor = 0;          ///< index into PlannerProblem::sensors()
-  int32_t weight = 0;      ///< in the table's units
-  int aoi_limit = 0;       ///< AoI beyond it count as it: smaller tables, weaker bounds
-  int lowest_aoi = 1;      ///< 1, or below: AoI that no flight has, for LowerBound::LongestUnserved
+  int sensor = 0;      ///< index into PlannerProblem::sensors()
+  int32_t weight = 0;  ///< in the table's units
+  int aoi_limit = 0;   ///< AoI beyond it count as it: smaller tables, weaker bounds
+  int lowest_aoi = 1;  ///< 1, or below: AoI that no flight has, for LowerBound::LongestUnserved
 };
 
 class CostToGo {

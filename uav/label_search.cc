@@ -20,9 +20,8 @@ std::vector<size_t> MostPromising(const std::vector<int64_t>& bound, size_t widt
   std::vector<size_t> order(bound.size());
   std::iota(order.begin(), order.end(), size_t{0});
   const auto end = order.begin() + static_cast<int64_t>(width);
-  std::nth_element(order.begin(), end, order.end(), [&](size_t a, size_t b) {
-    return std::pair(bound[a], a) < std::pair(bound[b], b);
-  });
+  std::nth_element(order.begin(), end, order.end(),
+                   [&](size_t a, size_t b) { return std::pair(bound[a], a) < std::pair(bound[b], b); });
   *least_dropped = std::min(*least_dropped, bound[*end]);
   order.erase(end, order.end());
   std::sort(order.begin(), order.end());

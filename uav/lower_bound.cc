@@ -102,8 +102,9 @@ int64_t LowerBound::TableBytes() const {
 int64_t LowerBound::BytesToBuild() const {
   const int64_t price_bytes = static_cast<int64_t>(slot_cells_->places()) * (problem_->size() + 1) *
                               static_cast<int64_t>(sizeof(int32_t));
-  return SlotCells::Bytes(*problem_) + std::max(PriceAscent::Bytes(*problem_, *slot_cells_, aoi_limit_) + price_bytes,
-                                                TableBytes() + price_bytes);
+  return SlotCells::Bytes(*problem_) +
+         std::max(PriceAscent::Bytes(*problem_, *slot_cells_, aoi_limit_) + price_bytes,
+                  TableBytes() + price_bytes);
 }
 
 void LowerBound::AddTables(WorkMeter& meter) {

@@ -36,10 +36,10 @@ class LowerBound {
 
    private:
     const LowerBound* bound_;
-    int slots_left_;                        // this one included
-    std::vector<CostToGo::Place> places_;   // by sensor; none without tables
-    std::vector<int64_t> values_;           // by sensor, for the situation of the last call
-    int64_t sum_ = 0;                       // of them, less what unused dear slots would have paid
+    int slots_left_;                       // this one included
+    std::vector<CostToGo::Place> places_;  // by sensor; none without tables
+    std::vector<int64_t> values_;          // by sensor, for the situation of the last call
+    int64_t sum_ = 0;                      // of them, less what unused dear slots would have paid
   };
 
  private:

@@ -32,7 +32,9 @@ class Planner {
   void Take(const LabelSearchResult& result);
   void Conclude();
   double LowerBoundTotalAoi() const;
-  double AverageAoi(int64_t cost) const { return static_cast<double>(cost) * problem_.average_aoi_per_unit(); }
+  double AverageAoi(int64_t cost) const {
+    return static_cast<double>(cost) * problem_.average_aoi_per_unit();
+  }
 
   const World& world_;
   const PlannerOptions& options_;
@@ -92,9 +94,8 @@ void Planner::Take(const LabelSearchResult& result) {
     size_t next = 0;
     plan_.flight = Fly(world_, [&](const Environment&) {
       Action action = result.actions[next++];
-      action.schedule = action.schedule == 0
-                            ? 0
-                            : problem_.sensors()[static_cast<size_t>(action.schedule) - 1] + 1;
+      action.schedule =
+          action.schedule == 0 ? 0 : problem_.sensors()[static_cast<size_t>(action.schedule) - 1] + 1;
       return action;
     });
     cost_ = result.cost;
@@ -108,8 +109,7 @@ void Planner::Conclude() {
   const bool exact = plan_.optimal && problem_.has_exact_weights();
   plan_.lower_bound_average_aoi =
       exact ? figures.average_aoi : std::min(figures.average_aoi, AverageAoi(proved_));
-  plan_.lower_bound_total_aoi =
-      plan_.optimal ? static_cast<double>(figures.total_aoi) : LowerBoundTotalAoi();
+  plan_.lower_bound_total_aoi = plan_.optimal ? static_cast<double>(figures.total_aoi) : LowerBoundTotalAoi();
 }
 
 double Planner::LowerBoundTotalAoi() const {

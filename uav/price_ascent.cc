@@ -10,7 +10,7 @@ namespace {
 constexpr float kNever = 1e30f;
 constexpr int kSweepsBetweenChecks = 8;
 constexpr double kLeastGain = 0.01;  // of the bound, in so many sweeps
-constexpr int64_t kMostWork = int64_t{1} << 35;
+constexpr int64_t kMostWork = int64_t{1} << 34;
 constexpr int64_t kUnitsPerEntry = 12;  // of a sweep in one direction
 
 // As the instruction for many floats at a time does it; std::min, by reference, keeps gcc from it.
@@ -72,7 +72,8 @@ PriceAscent::PriceAscent(const PlannerProblem& problem, const SlotCells& slot_ce
 int64_t PriceAscent::Bytes(const PlannerProblem& problem, const SlotCells& slot_cells, int aoi_limit) {
   int64_t floats = static_cast<int64_t>(slot_cells.places()) * (problem.size() + 1);
   for (int slot = 1; slot <= problem.slots(); ++slot) {
-    floats += 2 * static_cast<int64_t>(slot_cells.At(slot).size()) * problem.size() * std::min(slot, aoi_limit);
+    floats +=
+        2 * static_cast<int64_t>(slot_cells.At(slot).size()) * problem.size() * std::min(slot, aoi_limit);
   }
   return floats * static_cast<int64_t>(sizeof(float));
 }
@@ -157,7 +158,8 @@ void PriceAscent::SweepForward() {
   std::fill_n(forward_.get(), sensors_, 0.0f);  // slot 1 has one place, and AoI 1
   for (int slot = 1; slot < problem_->slots(); ++slot) {
     const std::vector<int32_t>& cells = slot_cells_->At(slot);
-    const size_t next_size = slot_cells_->At(slot + 1).size() * sensors_ * static_cast<size_t>(Width(slot + 1));
+    const size_t next_size =
+        slot_cells_->At(slot + 1).size() * sensors_ * static_cast<size_t>(Width(slot + 1));
     std::fill_n(forward_.get() + Offset(slot + 1, 0), next_size, kNever);
     for (size_t number = 0; number < cells.size(); ++number) {
       if (!meter_->Count(static_cast<int64_t>(sensors_) * Width(slot) * kUnitsPerEntry)) {

@@ -73,11 +73,11 @@ class PriceAscent {
   size_t entries_ = 0;
   std::unique_ptr<float[]> backward_;  // least cost of slots t..T, the slot's own included
   std::unique_ptr<float[]> forward_;   // least cost of slots 1..t-1 for coming there with that AoI
-  std::vector<float> own_cost_;  // of a slot, by sensor and AoI
+  std::vector<float> own_cost_;        // of a slot, by sensor and AoI
   // Of the place in work:
-  std::vector<float> best_next_;  // by sensor and AoI in the next slot
-  std::vector<float> pushed_;     // likewise
-  std::vector<float> past_;       // of one sensor, by AoI
+  std::vector<float> best_next_;      // by sensor and AoI in the next slot
+  std::vector<float> pushed_;         // likewise
+  std::vector<float> past_;           // of one sensor, by AoI
   std::vector<Marginals> marginals_;  // by sensor
 };
 

@@ -59,8 +59,7 @@ std::vector<Situation> ExhaustiveSearch::Next(const Situation& situation) const 
 }
 
 bool ExhaustiveSearch::Arrives(const Situation& situation) const {
-  const double used_j =
-      situation.hovers * hovering_j_ + (scenario_.slots - 1 - situation.hovers) * flying_j_;
+  const double used_j = situation.hovers * hovering_j_ + (scenario_.slots - 1 - situation.hovers) * flying_j_;
   return situation.cell == scenario_.stop && used_j <= scenario_.initial_energy_j + 1e-6;
 }
 

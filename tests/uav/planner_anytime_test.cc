@@ -41,9 +41,8 @@ struct Stopper {
     return {.keep_going = [this](const PlannerProgress& progress) {
       ++calls;
       calls_before_search += progress.width == 0;
-      asked_twice_in_a_slot =
-          asked_twice_in_a_slot ||
-          (progress.width > 0 && !slots.insert({progress.width, progress.slot}).second);
+      asked_twice_in_a_slot = asked_twice_in_a_slot ||
+                              (progress.width > 0 && !slots.insert({progress.width, progress.slot}).second);
       EXPECT_LE(progress.lower_bound_average, progress.best_average);
       return calls != last;
     }};

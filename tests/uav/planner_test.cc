@@ -55,8 +55,8 @@ double LeastAverageAoiOfAllSequences(const Scenario& scenario, std::vector<Actio
         weights += scenario.sensors[n].weight;
         weighted_aoi += scenario.sensors[n].weight * next.aoi[n];
       }
-      least = std::min(least, weighted_aoi / weights / scenario.slots +
-                                  LeastAverageAoiOfAllSequences(scenario, actions));
+      least = std::min(
+          least, weighted_aoi / weights / scenario.slots + LeastAverageAoiOfAllSequences(scenario, actions));
       actions->pop_back();
     }
   }
