@@ -1,87 +1,81 @@
-// The least cost that one or two sensors can have from any situation on, were the UAV flying for them
-// alone: exact, by backward dynamic programming over (slot, cell, AoI). Sums of such tables over
-// disjoint groups of sensors are lower bounds for all of them together. Immutable after construction.
+// The least cost that one sensor can have from any situation on, were the UAV flying for it alone at the
+// prices of price_ascent.h: exact, in whole numbers, by backward dynamic programming over (slot, cell,
+// AoI). Immutable after construction. A part of the exact planner.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "uav/planner_problem.h"
+#include "uav/slot_cells.h"
 
 namespace fresco {
 
-/// For each slot 1..T the cells over which the UAV can be then, numbered.
-class SlotCells {
- public:
-  explicit SlotCells(const PlannerProblem& problem);
+/// Costs and prices in the whole units of a table: cost times 2^shift, rounded so that sums of tables stay
+/// lower bounds.
+struct TableUnits {
+  int shift = 0;
 
-  const std::vector<int32_t>& At(int slot) const { return cells_[static_cast<size_t>(slot)]; }
-  /// The cell's number in a slot, -1 where it has none.
-  int Number(int slot, int cell) const {
-    return numbers_[static_cast<size_t>(slot) * cell_count_ + static_cast<size_t>(cell)];
+  /// At most weight x 2^shift.
+  int64_t Weight(int64_t weight) const { return shift >= 0 ? weight << shift : weight >> -shift; }
+  /// What a sum of table values says about a whole cost: it is no smaller.
+  int64_t CostOf(int64_t value) const {
+    return shift >= 0 ? -((-value) >> shift) : value * (int64_t{1} << -shift);
   }
-  static int64_t Bytes(const PlannerProblem& problem);
-
- private:
-  size_t cell_count_;
-  std::vector<std::vector<int32_t>> cells_;
-  std::vector<int32_t> numbers_;
+  /// The least table value that says: the cost is not below `cost`.
+  int64_t ValueOf(int64_t cost) const {
+    return shift >= 0 ? (cost - 1) * (int64_t{1} << shift) + 1 : -((-cost) >> -shift);
+  }
 };
 
-/// What a table is made for.
+/// As CellPrices, but whole: in every place the presence of all sensors and the transmission sum to zero.
+struct WholePrices {
+  std::vector<int32_t> presence;      // [places x sensors]
+  std::vector<int32_t> transmission;  // [places]
+  int32_t dear_share = 0;             // of a dear slot, what every sensor pays
+};
+
 struct CostToGoOptions {
-  int first = 0;           ///< index into PlannerProblem::sensors()
-  int second = -1;         ///< another one; -1: none
-  int aoi_limit = 0;       ///< AoI beyond it count as it: smaller tables, weaker bounds
-  int32_t dear_price = 0;  ///< cost of each dear slot (PlannerProblem::IsDear)
+  int sensor = 0;      ///< index into PlannerProblem::sensors()
+  int32_t weight = 0;  ///< in the table's units
+  int aoi_limit = 0;   ///< AoI beyond it count as it: smaller tables, weaker bounds
+  int lowest_aoi = 1;  ///< 1, or below: AoI that no flight has, for LowerBound::LongestUnserved
 };
 
 class CostToGo {
  public:
-  CostToGo(const PlannerProblem& problem, const SlotCells& slot_cells, CostToGoOptions options);
+  /// Incomplete, and not to be used, where the meter has stopped.
+  CostToGo(const PlannerProblem& problem, const SlotCells& slot_cells, const WholePrices& prices,
+           const CostToGoOptions& options, WorkMeter& meter);
 
-  /// A slot and cell of the table.
+  /// The costs in one slot over one cell.
   struct Place {
-    size_t base = 0;
-    int first_width = 1;
-    int second_width = 1;
+    const int32_t* costs = nullptr;  // of lowest_aoi to highest_aoi
+    int lowest_aoi = 1;
+    int highest_aoi = 1;
+
+    int32_t At(int aoi) const { return costs[std::min(aoi, highest_aoi) - lowest_aoi]; }
   };
-  /// `number`: the cell's, from SlotCells.
-  Place PlaceOf(int slot, int number) const {
-    const int first_width = FirstWidth(slot);
-    const int second_width = SecondWidth(slot);
-    return {offsets_[static_cast<size_t>(slot)] +
-                static_cast<size_t>(number) * static_cast<size_t>(first_width * second_width),
-            first_width, second_width};
-  }
+  /// `number`: the cell's, from SlotCells. Its costs are of slots t..T for the AoI at the beginning of slot
+  /// t, prices from t on included.
+  Place PlaceOf(int slot, int number) const;
 
-  /// The least cost of slots t..T for the AoI at the beginning of slot t, dear slots from t on priced.
-  uint32_t At(const Place& place, const int16_t* aoi) const {
-    const int first = std::min<int>(aoi[options_.first], place.first_width) - 1;
-    const int second = options_.second < 0 ? 0 : std::min<int>(aoi[options_.second], place.second_width) - 1;
-    const size_t index = place.base + static_cast<size_t>(first * place.second_width + second);
-    return narrow_.empty() ? wide_[index] : narrow_[index];
-  }
-
-  static int64_t Bytes(const PlannerProblem& problem, const SlotCells& slot_cells, CostToGoOptions options);
+  static int64_t Bytes(const PlannerProblem& problem, const SlotCells& slot_cells,
+                       const CostToGoOptions& options);
 
  private:
-  int FirstWidth(int slot) const { return std::min(slot, options_.aoi_limit); }
-  int SecondWidth(int slot) const { return options_.second < 0 ? 1 : FirstWidth(slot); }
-  template <class Value>
-  void Compute(std::vector<Value>& values);
-  template <class Value>
-  void TakeBestMove(int slot, int cell, const std::vector<Value>& values, std::vector<Value>& best) const;
-  template <class Value>
-  void ComputePlace(int slot, int cell, const std::vector<Value>& best, Value* place) const;
+  int HighestAoi(int slot) const { return std::min(slot, options_.aoi_limit); }
+  int Width(int slot) const { return HighestAoi(slot) - options_.lowest_aoi + 1; }
+  size_t Offset(int slot, int number) const;
+  void TakeBestNext(const PlannerProblem& problem, int slot, int cell, int32_t dear_share);
+  void ComputePlace(const PlannerProblem& problem, const WholePrices& prices, int slot, int number);
 
-  const PlannerProblem* problem_;
   const SlotCells* slot_cells_;
   CostToGoOptions options_;
-  std::vector<size_t> offsets_;   // by slot
-  std::vector<uint16_t> narrow_;  // one of the two, as narrow as the largest cost allows
-  std::vector<uint32_t> wide_;
+  std::vector<size_t> offsets_;  // by slot
+  std::unique_ptr<int32_t[]> costs_;
+  std::vector<int32_t> best_next_;  // while it is computed: by AoI in the next slot
 };
 
 }  // namespace fresco

@@ -1,6 +1,6 @@
-// Lower bounds on the cost from any situation on, from tables of one or two sensors each. Any split of
-// the sensors into such groups gives a bound, the sum of the groups' own optima; the largest of several
-// splits is taken. As many tables as the memory allows. Immutable after construction.
+// Lower bounds on the cost from any situation on: the sum of every sensor's own optimum at prices that
+// make the sensors agree (price_ascent.h, cost_to_go.h). As good tables as the memory allows; none at all
+// where it allows none. Immutable after construction. A part of the exact planner.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,16 @@ namespace fresco {
 
 class LowerBound {
  public:
-  /// Takes about `memory_bytes` at most. `problem` must outlive the bound.
-  LowerBound(const PlannerProblem& problem, int64_t memory_bytes);
+  /// Takes `memory_bytes` at most, while it is built too. `problem` must outlive the bound. Where the
+  /// meter stops, the bound is one without tables.
+  LowerBound(const PlannerProblem& problem, int64_t memory_bytes, WorkMeter& meter);
 
+  /// What it keeps.
   int64_t bytes() const { return bytes_; }
+  bool has_tables() const { return !tables_.empty(); }
+
+  /// No flight costs less.
+  int64_t OfAnyFlight() const;
 
   /// The bound for situations over one cell at the beginning of one slot.
   class OverCell {
@@ -24,45 +30,32 @@ class LowerBound {
     OverCell(const LowerBound& bound, int slot, int cell);
     /// Of the cost of slots t..T; `aoi` as PlannerProblem::sensors(), `dear` slots flown so far.
     int64_t operator()(const int16_t* aoi, int dear);
-    /// Of what the other sensors cost in the situation of the last call; as if nothing were flown for
-    /// this sensor.
-    int64_t WithoutSensor(int sensor) const;
+    /// In how many slots from this one on the sensor's present AoI can go on growing, in a flight whose
+    /// cost of slots t..T is below `limit`; in the situation of the last call, its bound below `limit`.
+    int LongestUnserved(int sensor, int aoi, int64_t limit) const;
 
    private:
     const LowerBound* bound_;
-    int slots_left_;
-    std::vector<CostToGo::Place> places_;  // by table
-    std::vector<int64_t> values_;          // by group, for the situation of the last call
-    std::vector<int64_t> sums_;            // by split
-    int64_t rebate_ = 0;
+    int slots_left_;                       // this one included
+    std::vector<CostToGo::Place> places_;  // by sensor; none without tables
+    std::vector<int64_t> values_;          // by sensor, for the situation of the last call
+    int64_t sum_ = 0;                      // of them, less what unused dear slots would have paid
   };
 
  private:
-  /// One or two sensors; the first size() groups are the single sensors in their order.
-  struct Group {
-    int first;
-    int second;  // -1: none
-  };
-  /// Groups that are disjoint and together all sensors.
-  struct Split {
-    std::vector<int> groups;
-    std::vector<int> group_of;  // by sensor
-  };
-
-  void AddSingles(int64_t memory_bytes);
-  void AddPairs(int64_t memory_bytes);
-  void AddTable(const CostToGoOptions& options);
-  void AddSplit(std::vector<int> groups);
-  int32_t PriceShare(int sensors) const;
-  int64_t RootBound(CostToGoOptions options, int32_t price_share) const;
-  int64_t BestDearPrice(const CostToGoOptions& options) const;
+  bool ChooseSizes(int64_t memory_bytes);
+  int64_t BytesToBuild() const;
+  int64_t TableBytes() const;
+  CostToGoOptions TableOptions(int sensor) const;
+  void AddTables(WorkMeter& meter);
 
   const PlannerProblem* problem_;
+  TableUnits units_;
+  int aoi_limit_;
+  int lowest_aoi_ = 1;
   std::unique_ptr<SlotCells> slot_cells_;  // null: not even this fits
-  std::vector<Group> groups_;
-  std::vector<CostToGo> tables_;  // by group; none at all where they don't fit
-  std::vector<Split> splits_;
-  int64_t dear_price_ = 0;  // of all groups of a split together
+  std::vector<CostToGo> tables_;           // by sensor; all or none
+  int64_t dear_price_ = 0;                 // of a dear slot, in the tables' units
   int64_t bytes_ = 0;
 };
 

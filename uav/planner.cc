@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "uav/label_search.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr int64_t kFirstWidth = 1000;
 constexpr int64_t kWidthFactor = 8;
+constexpr int64_t kLeastWidest = 100;
 
 class Planner {
  public:
@@ -18,31 +20,42 @@ class Planner {
       : world_(world),
         options_(options),
         problem_(world),
-        lower_bound_(problem_, options.memory_bytes * 7 / 8) {}
+        meter_([this](const SearchProgress& progress) { return KeepGoing(progress); }) {}
 
   Plan Run();
 
  private:
+  bool KeepGoing(const SearchProgress& progress) const;
   void BeginWithBaselines();
+  void Search();
   int64_t CostOf(const Flight& flight) const;
   void Take(const LabelSearchResult& result);
-  double AverageAoi(int64_t cost) const { return static_cast<double>(cost) * problem_.average_aoi_per_unit(); }
+  void Conclude();
+  double LowerBoundTotalAoi() const;
+  double AverageAoi(int64_t cost) const {
+    return static_cast<double>(cost) * problem_.average_aoi_per_unit();
+  }
 
   const World& world_;
   const PlannerOptions& options_;
   PlannerProblem problem_;
-  LowerBound lower_bound_;
+  WorkMeter meter_;
   Plan plan_;
-  int64_t cost_ = kNoCost;
-  int64_t proved_ = 0;
+  int64_t cost_ = kNoCost;  // of plan_.flight
+  int64_t proved_ = 0;      // no flight costs less
 };
+
+bool Planner::KeepGoing(const SearchProgress& progress) const {
+  const int64_t bound = std::clamp(progress.least_bound, proved_, cost_);
+  return !options_.keep_going || options_.keep_going({progress.width, progress.slot, progress.labels,
+                                                      AverageAoi(bound), AverageAoi(cost_)});
+}
 
 int64_t Planner::CostOf(const Flight& flight) const {
   int64_t cost = 0;
   for (const FlightSlot& slot : flight.slots) {
-    for (int n = 0; n < problem_.size(); ++n) {
-      const auto i = static_cast<size_t>(n);
-      cost += int64_t{problem_.weights()[i]} * slot.state.aoi[static_cast<size_t>(problem_.sensors()[i])];
+    for (size_t n = 0; n < problem_.weights().size(); ++n) {
+      cost += problem_.weights()[n] * slot.state.aoi[static_cast<size_t>(problem_.sensors()[n])];
     }
   }
   return cost;
@@ -51,10 +64,26 @@ int64_t Planner::CostOf(const Flight& flight) const {
 void Planner::BeginWithBaselines() {
   for (const BaselineKind kind : {BaselineKind::kAoi, BaselineKind::kDistance}) {
     Flight flight = FlyBaseline(world_, kind);
-    if (flight.arrived() && CostOf(flight) < cost_) {
+    FRESCO_CHECK(flight.arrived());
+    if (CostOf(flight) < cost_) {
       cost_ = CostOf(flight);
       plan_.flight = std::move(flight);
     }
+  }
+}
+
+// Wider and wider passes: the first ones are quick and find flights, the better the flight known, the
+// fewer labels the last one has to follow.
+void Planner::Search() {
+  const LowerBound lower_bound(problem_, options_.memory_bytes * 7 / 8, meter_);
+  proved_ = std::min(cost_, lower_bound.OfAnyFlight());
+  const CoverageDistances distances(problem_, meter_);
+  const int64_t widest =
+      std::max(kLeastWidest, (options_.memory_bytes - lower_bound.bytes()) / BytesPerLabel(problem_));
+  int64_t width = 0;
+  while (proved_ < cost_ && width < widest && !meter_.stopped()) {
+    width = std::min(std::max(kFirstWidth, width * kWidthFactor), widest);
+    Take(SearchLabels(problem_, lower_bound, distances, cost_, width, meter_));
   }
 }
 
@@ -65,9 +94,8 @@ void Planner::Take(const LabelSearchResult& result) {
     size_t next = 0;
     plan_.flight = Fly(world_, [&](const Environment&) {
       Action action = result.actions[next++];
-      action.schedule = action.schedule == 0
-                            ? 0
-                            : problem_.sensors()[static_cast<size_t>(action.schedule) - 1] + 1;
+      action.schedule =
+          action.schedule == 0 ? 0 : problem_.sensors()[static_cast<size_t>(action.schedule) - 1] + 1;
       return action;
     });
     cost_ = result.cost;
@@ -75,30 +103,28 @@ void Planner::Take(const LabelSearchResult& result) {
   }
 }
 
-Plan Planner::Run() {
-  BeginWithBaselines();
-  const int64_t widest =
-      std::max(kFirstWidth, (options_.memory_bytes - lower_bound_.bytes()) / BytesPerLabel(problem_));
-  bool stopped = false;
-  for (int64_t width = kFirstWidth; proved_ < cost_ && !stopped; width *= kWidthFactor) {
-    const int64_t pass_width = std::min(width, widest);
-    const auto keep_going = [&](int slot, int64_t labels, int64_t least_bound) {
-      const int64_t bound = std::clamp(least_bound, proved_, cost_);
-      return !options_.keep_going ||
-             options_.keep_going({pass_width, slot, labels, AverageAoi(bound), AverageAoi(cost_)});
-    };
-    const LabelSearchResult result = SearchLabels(problem_, lower_bound_, cost_, pass_width, keep_going);
-    Take(result);
-    stopped = result.stopped || pass_width == widest;
-  }
+void Planner::Conclude() {
   const AoiFigures figures = Figures(world_, plan_.flight);
   plan_.optimal = proved_ >= cost_;
-  plan_.lower_bound_average_aoi = std::min(figures.average_aoi, AverageAoi(proved_));
-  if (plan_.optimal) {
-    plan_.lower_bound_average_aoi = figures.average_aoi;
+  const bool exact = plan_.optimal && problem_.has_exact_weights();
+  plan_.lower_bound_average_aoi =
+      exact ? figures.average_aoi : std::min(figures.average_aoi, AverageAoi(proved_));
+  plan_.lower_bound_total_aoi = plan_.optimal ? static_cast<double>(figures.total_aoi) : LowerBoundTotalAoi();
+}
+
+double Planner::LowerBoundTotalAoi() const {
+  if (problem_.has_equal_weights()) {
+    const int64_t ignored = world_.sensors() - problem_.size();
+    return static_cast<double>(proved_ + ignored * problem_.slots());
   }
-  plan_.lower_bound_total_aoi = plan_.lower_bound_average_aoi * world_.scenario().slots * world_.sensors();
-  return plan_;
+  return plan_.lower_bound_average_aoi * problem_.slots() * world_.sensors();
+}
+
+Plan Planner::Run() {
+  BeginWithBaselines();
+  Search();
+  Conclude();
+  return std::move(plan_);
 }
 
 }  // namespace

@@ -8,34 +8,30 @@
 namespace fresco {
 namespace {
 
-// The cost of two sensors over a whole flight has to fit a uint32_t.
-double LargestWholeWeight(int slots) {
-  return std::min(1048576.0, std::floor(4294967295.0 / (static_cast<double>(slots) * (slots + 1.0))));
+// A flight's cost stays below 2^50, and sums of a few such numbers are exact in a double.
+double LargestWholeWeight(int sensors, int slots) {
+  return std::floor(std::ldexp(1.0, 50) / (sensors * (slots * (slots + 1.0) / 2)));
 }
 
+// But for the rounding of decimal fractions in double and of a division and a product.
 bool AllWhole(const std::vector<double>& weights, double factor) {
-  constexpr double kTolerance = 1e-9;
+  constexpr double kTolerance = 4e-15;
   return std::all_of(weights.begin(), weights.end(), [&](double weight) {
     return std::abs(weight * factor - std::round(weight * factor)) <= kTolerance * weight * factor;
   });
 }
 
-// The factor that makes the weights whole numbers, none above `limit`; or the one that makes them as
-// large as that, to be rounded down.
+// The factor that makes the weights whole numbers, none above `limit`; 0 where none is found.
 double WholeFactor(const std::vector<double>& weights, double limit) {
+  constexpr int kMostParts = 100000;
   const auto [smallest, largest] = std::minmax_element(weights.begin(), weights.end());
   // If they are multiples of a common fraction, then it is some part of the smallest weight.
-  for (int parts = 1; *largest / *smallest * parts <= limit; ++parts) {
+  for (int parts = 1; parts <= kMostParts && *largest / *smallest * parts <= limit; ++parts) {
     if (AllWhole(weights, parts / *smallest)) {
       return parts / *smallest;
     }
   }
-  return limit / *largest;
-}
-
-// Down, but for the noise of a whole number's own division and multiplication.
-int32_t RoundDown(double value) {
-  return static_cast<int32_t>(std::floor(value * (1 + 2e-9)));
+  return 0;
 }
 
 }  // namespace
@@ -46,6 +42,7 @@ PlannerProblem::PlannerProblem(const World& world)
       hovering_is_dearer_(world.hovering_energy_j() >= world.flying_energy_j()) {
   TakeSensors();
   TakeEnergies();
+  TakeMoves();
 }
 
 void PlannerProblem::TakeSensors() {
@@ -57,12 +54,22 @@ void PlannerProblem::TakeSensors() {
       weights.push_back(weight);
     }
   }
-  const double factor = WholeFactor(weights, LargestWholeWeight(slots()));
+  const double limit = LargestWholeWeight(size(), slots());
+  double factor = WholeFactor(weights, limit);
+  has_exact_weights_ = factor > 0;
+  if (!has_exact_weights_) {
+    factor = limit / *std::max_element(weights.begin(), weights.end());
+  }
   for (const double weight : weights) {
-    weights_.push_back(RoundDown(weight * factor));
+    const double scaled = weight * factor;
+    weights_.push_back(static_cast<int64_t>(has_exact_weights_ ? std::round(scaled) : std::floor(scaled)));
   }
   const double weight_sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   average_aoi_per_unit_ = 1 / (factor * weight_sum * slots());
+}
+
+bool PlannerProblem::has_equal_weights() const {
+  return std::all_of(weights_.begin(), weights_.end(), [&](int64_t weight) { return weight == 1; });
 }
 
 void PlannerProblem::TakeEnergies() {
@@ -77,10 +84,16 @@ void PlannerProblem::TakeEnergies() {
   }
 }
 
-int PlannerProblem::After(int cell, Move move) const {
-  const Cell from = CellAt(cell);
-  const Cell to = world_->After(from, move);
-  return move != Move::kHover && to == from ? -1 : world_->CellIndex(to);
+void PlannerProblem::TakeMoves() {
+  after_.assign(static_cast<size_t>(cells()) * kMoves, -1);
+  for (int cell = 0; cell < cells(); ++cell) {
+    for (const Move move : kAllMoves) {
+      const Cell to = world_->After(CellAt(cell), move);
+      if (move == Move::kHover || to != CellAt(cell)) {
+        after_[static_cast<size_t>(cell) * kMoves + static_cast<size_t>(move)] = world_->CellIndex(to);
+      }
+    }
+  }
 }
 
 int PlannerProblem::DearAllowance(int slot, int cell) const {

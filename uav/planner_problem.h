@@ -1,7 +1,8 @@
 // The exact planner's problem in whole numbers: sensors that count, integer weights, what each slot
-// and cell allows. Immutable after construction. Used by cost_to_go, label_search and planner only.
+// and cell allows. Immutable after construction. Used by the planner's own parts only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace fresco {
 
+inline constexpr std::array kAllMoves = {Move::kNorth, Move::kSouth, Move::kEast, Move::kWest, Move::kHover};
+
 /// The planner minimises sum_t sum_n weight_n delta_{n,t} over flights that arrive. Sensors of weight
 /// zero are left out. Weights are whole numbers: exact where the scenario's are multiples of a common
-/// fraction (1, 2, 0.25, ...), otherwise rounded down to about a millionth of their sum, so that a
-/// lower bound stays one.
+/// fraction (1, 2, 0.25, ...), otherwise rounded down, so that a lower bound stays one.
 class PlannerProblem {
  public:
   /// `world` must outlive the problem.
@@ -21,16 +23,23 @@ class PlannerProblem {
   const World& world() const { return *world_; }
   int slots() const { return world_->scenario().slots; }
   int cells() const { return world_->scenario().columns * world_->scenario().rows; }
+  int start() const { return world_->CellIndex(world_->scenario().start); }
 
   /// The sensors that count, as indices into the scenario's.
   const std::vector<int>& sensors() const { return sensors_; }
   int size() const { return static_cast<int>(sensors_.size()); }
-  const std::vector<int32_t>& weights() const { return weights_; }
+  /// So small that the cost of any flight stays below 2^50, exact in a double.
+  const std::vector<int64_t>& weights() const { return weights_; }
+  /// Whether the whole weights stand to each other as the scenario's do (but for double's own rounding).
+  bool has_exact_weights() const { return has_exact_weights_; }
+  /// Whether all sensors that count weigh the same; then the cost is in slots of AoI.
+  bool has_equal_weights() const;
   /// One unit of cost, as average AoI (J of the paper).
   double average_aoi_per_unit() const { return average_aoi_per_unit_; }
 
   /// The AoI's cap; the number of slots where there is none.
   int maximum_aoi() const { return maximum_aoi_; }
+  bool is_capped() const { return maximum_aoi_ < slots(); }
   int NextAoi(int aoi) const { return aoi < maximum_aoi_ ? aoi + 1 : aoi; }
   bool Covers(int cell, int sensor) const {
     return world_->Covers(CellAt(cell), sensors_[static_cast<size_t>(sensor)]);
@@ -40,7 +49,9 @@ class PlannerProblem {
     return {cell % world_->scenario().columns, cell / world_->scenario().columns};
   }
   /// The cell after a move, -1 where it leaves the grid.
-  int After(int cell, Move move) const;
+  int After(int cell, Move move) const {
+    return after_[static_cast<size_t>(cell) * kMoves + static_cast<size_t>(move)];
+  }
 
   /// Of hovering and flying a slot, one is the dearer in energy; flights differ in how many slots they
   /// spend on it. Whether the budget limits that number at all:
@@ -55,10 +66,13 @@ class PlannerProblem {
  private:
   void TakeSensors();
   void TakeEnergies();
+  void TakeMoves();
 
   const World* world_;
+  std::vector<int32_t> after_;  // by cell and move
   std::vector<int> sensors_;
-  std::vector<int32_t> weights_;
+  std::vector<int64_t> weights_;
+  bool has_exact_weights_ = false;
   double average_aoi_per_unit_ = 0;
   int maximum_aoi_;
   bool hovering_is_dearer_;
