@@ -85,7 +85,8 @@ LabelSearchResult Search::Run() {
   Begin();
   for (int slot = 1; slot < problem_.slots(); ++slot) {
     const int64_t least_bound = LeastBound();
-    meter_.progress = {static_cast<int64_t>(width_), slot, static_cast<int64_t>(labels_.size()), least_bound};
+    meter_.progress = {static_cast<int64_t>(width_), slot, static_cast<int64_t>(labels_.size()),
+                       std::min(least_bound, result_.least_dropped)};
     if (!meter_.Ask() || !AdvanceFrom(slot)) {
       result_.least_dropped = std::min(result_.least_dropped, least_bound);
       return std::move(result_);

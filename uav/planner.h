@@ -16,7 +16,7 @@ struct PlannerProgress {
   int64_t width = 0;               ///< labels a slot in the present pass
   int slot = 0;                    ///< of the present pass
   int64_t labels = 0;              ///< in that slot
-  double lower_bound_average = 0;  ///< what the present pass can prove yet, at most
+  double lower_bound_average = 0;  ///< no flight has a smaller one: proved by now
   double best_average = 0;         ///< of the best flight so far
 };
 

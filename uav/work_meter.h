@@ -13,7 +13,7 @@ struct SearchProgress {
   int64_t width = 0;        ///< labels a slot in the present pass
   int slot = 0;             ///< of the present pass
   int64_t labels = 0;       ///< in that slot
-  int64_t least_bound = 0;  ///< the least lower bound of a label that is still followed
+  int64_t least_bound = 0;  ///< no flight below the limit costs less: the least bound of any label
 };
 
 class WorkMeter {

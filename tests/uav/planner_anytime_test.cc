@@ -1,6 +1,7 @@
 // The exact planner stopped early or starved of memory: it still has a flight and a true bound.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -35,6 +36,7 @@ struct Stopper {
   int calls = 0;
   int calls_before_search = 0;
   bool asked_twice_in_a_slot = false;
+  double largest_bound = 0;
   std::set<std::pair<int64_t, int>> slots;
 
   PlannerOptions Options() {
@@ -44,10 +46,27 @@ struct Stopper {
       asked_twice_in_a_slot = asked_twice_in_a_slot ||
                               (progress.width > 0 && !slots.insert({progress.width, progress.slot}).second);
       EXPECT_LE(progress.lower_bound_average, progress.best_average);
+      largest_bound = std::max(largest_bound, progress.lower_bound_average);
       return calls != last;
     }};
   }
 };
+
+TEST(PlannerProgress, NeverClaimsMoreThanIsProved) {
+  constexpr double kRounding = 1e-9;
+  bool several_passes = false;
+  for (uint64_t seed = 1; seed <= 2; ++seed) {
+    Scenario scenario;
+    scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 5, seed);
+    const World world(scenario);
+    Stopper stopper;
+    const Plan plan = PlanOptimally(world, stopper.Options());
+    ASSERT_TRUE(plan.optimal);
+    EXPECT_LE(stopper.largest_bound, plan.lower_bound_average_aoi + kRounding);
+    several_passes = several_passes || stopper.slots.size() > static_cast<size_t>(scenario.slots);
+  }
+  EXPECT_TRUE(several_passes);
+}
 
 Plan PlanUntilCall(const World& world, int last, Stopper* stopper) {
   *stopper = {};
