@@ -73,7 +73,8 @@ void Dqn::ComputeTargets(const MiniBatch& batch) {
     const int choice =
         options_.double_dqn ? choices_[i] : BestAllowed(next_workspace_.output(), batch.next_penalty, column);
     const float next_value = next_workspace_.output()(choice, column);
-    targets_(column) = batch.rewards[i] + (batch.terminal[i] != 0 ? 0.0f : options_.discount * next_value);
+    const float later = batch.terminal[i] != 0 ? 0.0f : options_.discount * next_value;
+    targets_(column) = std::max(batch.rewards[i] + later, batch.least_values[i]);
   }
 }
 

@@ -23,7 +23,8 @@ class Dqn {
   Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options);
 
   /// One step on L = mean (y - Q(s, a))^2 (eq. Loss-Func), y = r, plus discount * max over the
-  /// actions allowed in s' of the target network where s' is not terminal. Returns L before the step.
+  /// actions allowed in s' of the target network where s' is not terminal; y is at least the
+  /// transition's least value. Returns L before the step.
   double Update(const MiniBatch& batch, double learning_rate);
 
   /// theta^- = theta.

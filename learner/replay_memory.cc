@@ -13,6 +13,7 @@ MiniBatch::MiniBatch(int inputs, int action_count, int batch_size)
       actions(static_cast<size_t>(batch_size)),
       rewards(static_cast<size_t>(batch_size)),
       terminal(static_cast<size_t>(batch_size)),
+      least_values(static_cast<size_t>(batch_size), -std::numeric_limits<float>::infinity()),
       next_penalty(action_count, batch_size) {}
 
 ReplayMemory::ReplayMemory(int inputs, int actions, int64_t capacity)
@@ -23,6 +24,7 @@ ReplayMemory::ReplayMemory(int inputs, int actions, int64_t capacity)
       action_(static_cast<size_t>(capacity)),
       reward_(static_cast<size_t>(capacity)),
       terminal_(static_cast<size_t>(capacity)),
+      least_value_(static_cast<size_t>(capacity)),
       mask_size_((static_cast<size_t>(actions) + 7) / 8),
       masks_(mask_size_ * static_cast<size_t>(capacity)) {}
 
@@ -36,6 +38,7 @@ void ReplayMemory::Insert(const Transition& transition) {
   action_[place] = transition.action;
   reward_[place] = transition.reward;
   terminal_[place] = transition.terminal ? 1 : 0;
+  least_value_[place] = transition.least_value;
   std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + place * mask_size_);
   next_ = (next_ + 1) % capacity_;
   size_ = std::min(size_ + 1, capacity_);
@@ -56,6 +59,7 @@ void ReplayMemory::Copy(int64_t place, int column, MiniBatch& batch) const {
   batch.actions[to] = action_[from];
   batch.rewards[to] = reward_[from];
   batch.terminal[to] = terminal_[from];
+  batch.least_values[to] = least_value_[from];
   const uint8_t* mask = masks_.data() + from * mask_size_;
   for (int action = 0; action < actions_; ++action) {
     const bool allowed = (mask[action / 8] >> (action % 8) & 1) != 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct MiniBatch {
   Matrix next_observations;  ///< [inputs x batch]
   std::vector<int16_t> actions;
   std::vector<float> rewards;
-  std::vector<uint8_t> terminal;  ///< 1: no next state
-  Matrix next_penalty;            ///< [actions x batch]: 0 where allowed in s', -infinity where not
+  std::vector<uint8_t> terminal;    ///< 1: no next state
+  std::vector<float> least_values;  ///< Q(s, a) is known to be no smaller; -infinity: nothing is known
+  Matrix next_penalty;              ///< [actions x batch]: 0 where allowed in s', -infinity where not
 };
 
 /// One transition, for inserting.
@@ -33,6 +35,7 @@ struct Transition {
   float reward = 0;
   bool terminal = false;
   std::span<const uint8_t> next_mask;  ///< packed bits
+  float least_value = -std::numeric_limits<float>::infinity();
 };
 
 class ReplayMemory {
@@ -59,6 +62,7 @@ class ReplayMemory {
   std::vector<int16_t> action_;
   std::vector<float> reward_;
   std::vector<uint8_t> terminal_;
+  std::vector<float> least_value_;
   size_t mask_size_;
   std::vector<uint8_t> masks_;
 };

@@ -1,6 +1,7 @@
 #include "learner/trainer.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/check.h"
@@ -34,7 +35,8 @@ Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput
            InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
            OptionsOf(experiment.agent())),
       observation_(static_cast<size_t>(world.inputs())),
-      next_observation_(static_cast<size_t>(world.inputs())) {}
+      next_observation_(static_cast<size_t>(world.inputs())),
+      least_values_(static_cast<size_t>(world.maximum_transitions())) {}
 
 void Trainer::Begin() {
   newest_ = {std::make_shared<const Vector>(dqn_.current()), 0};
@@ -60,7 +62,23 @@ void Trainer::Commit(const Order& order, const Episode& episode) {
   finished_ = final_evaluation_written_ && progress_.committed_orders == next_index_;
 }
 
+/// What the episode earned from each transition on: the world is deterministic, so that much is within
+/// reach (a lower bound of Q*, as in He et al., "Learning to play in a day", 2017).
+void Trainer::TakeLeastValues(const Episode& episode) {
+  if (!experiment_.agent().flown_return_bound()) {
+    std::fill(least_values_.begin(), least_values_.end(), -std::numeric_limits<float>::infinity());
+    return;
+  }
+  double earned = 0;
+  for (int transition = episode.transitions() - 1; transition >= 0; --transition) {
+    const auto i = static_cast<size_t>(transition);
+    earned = static_cast<double>(episode.rewards[i]) + experiment_.agent().discount() * earned;
+    least_values_[i] = static_cast<float>(earned);
+  }
+}
+
 void Trainer::CommitTraining(const Episode& episode) {
+  TakeLeastValues(episode);
   for (int transition = 0; transition < episode.transitions(); ++transition) {
     Insert(episode, transition);
     ++progress_.transitions;
@@ -80,7 +98,7 @@ void Trainer::Insert(const Episode& episode, int transition) {
   const auto mask_size = static_cast<size_t>(MaskSize(*world_));
   const bool last = transition + 1 == episode.transitions();
   replay_.Insert({observation_, next_observation_, episode.actions[i], episode.rewards[i], last,
-                  std::span(episode.next_masks).subspan(i * mask_size, mask_size)});
+                  std::span(episode.next_masks).subspan(i * mask_size, mask_size), least_values_[i]});
 }
 
 void Trainer::UpdateOnce() {

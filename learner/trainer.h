@@ -88,6 +88,7 @@ class Trainer {
 
   void CommitTraining(const Episode& episode);
   void CommitEvaluation(const Order& order, const Episode& episode);
+  void TakeLeastValues(const Episode& episode);
   void Insert(const Episode& episode, int transition);
   void UpdateOnce();
   void CopyToTarget();
@@ -105,6 +106,7 @@ class Trainer {
   Dqn dqn_;
   std::vector<float> observation_;
   std::vector<float> next_observation_;
+  std::vector<float> least_values_;  // of the episode's transitions
   TrainerProgress progress_;
   int64_t next_index_ = 0;       // of the next order to write
   int64_t training_orders_ = 0;  // written

@@ -117,6 +117,80 @@ TEST_P(FlyerActions, DepartFromTheArgmaxAsOftenAsEpsilonSays) {
   EXPECT_LT(std::abs(surplus), kDeviations * std::sqrt(variance));
 }
 
+/// The action that follows from the order when random moves are kept for up to `longest` slots, from the
+/// random streams and literal values alone; -1 where the values don't decide.
+class LiteralExploration {
+ public:
+  LiteralExploration(const World& world, const Experiment& experiment, const FlightPlan& plan, int longest)
+      : world_(world), experiment_(experiment), plan_(plan), longest_(longest) {}
+
+  int Choose(const State& state, const Mask& mask) {
+    if (left_ > 0) {
+      Mask with_move = mask;
+      for (int action = 0; action < world_.actions(); ++action) {
+        if (world_.ActionAt(action).move != move_) {
+          with_move[static_cast<size_t>(action)] = 0;
+        }
+      }
+      left_ = Allowed(with_move) > 0 ? left_ - 1 : 0;
+      if (Allowed(with_move) > 0) {
+        return Best(state, with_move);
+      }
+    }
+    RandomStream stream(plan_.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(plan_.order.index),
+                        static_cast<uint32_t>(state.slot));
+    if (stream.NextUniform() >= plan_.order.epsilon) {
+      return Best(state, mask);
+    }
+    int number = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(Allowed(mask))));
+    int action = 0;
+    while (mask[static_cast<size_t>(action)] == 0 || number-- > 0) {
+      ++action;
+    }
+    move_ = world_.ActionAt(action).move;
+    left_ = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(longest_)));
+    return action;
+  }
+
+ private:
+  int Best(const State& state, const Mask& mask) const {
+    const Doubles values = LiteralValues(experiment_, *plan_.current, state);
+    return Lead(values, mask) > kRounding ? LiteralArgmax(values, mask) : -1;
+  }
+
+  const World& world_;
+  const Experiment& experiment_;
+  const FlightPlan& plan_;
+  int longest_;
+  Move move_ = Move::kHover;
+  int left_ = 0;
+};
+
+TEST_P(FlyerActions, KeepARandomMoveAsLongAsItIsAllowedAndTheDrawSays) {
+  constexpr int kLongest = 5;
+  proto::ExperimentConfig config = experiment_.config();
+  config.mutable_schedule()->set_longest_exploration_slots(kLongest);
+  const Experiment experiment = Experiment::Make(config, "longer explorations");
+  int decided = 0;
+  int other_than_single = 0;
+  for (int index = 0; index < 200; ++index) {
+    const FlightPlan plan = Plan(index, 0.3, static_cast<uint32_t>(index));
+    const Episode episode = FlyAlone(world_, experiment, plan);
+    const auto masks = MasksOf(world_, experiment, episode);
+    LiteralExploration literal(world_, experiment, plan, kLongest);
+    for (size_t i = 0; i < episode.actions.size(); ++i) {
+      const int expected = literal.Choose(episode.states[i], masks[i]);
+      if (expected >= 0) {
+        ++decided;
+        ASSERT_EQ(episode.actions[i], expected) << index << ", " << i;
+      }
+    }
+    other_than_single += episode.actions != FlyAlone(world_, experiment_, plan).actions;
+  }
+  EXPECT_GT(decided, 500);
+  EXPECT_GT(other_than_single, 50);
+}
+
 TEST_P(FlyerActions, OfFlyGreedilyAreThoseOfAnyOrderWithEpsilonZero) {
   for (uint32_t network = 0; network < 20; ++network) {
     FlightPlan plan = Plan(network, 0, network);

@@ -44,8 +44,9 @@ Doubles Forward(const Doubles& parameters, const Matrix& inputs, int column) {
 double LiteralTarget(const Doubles& current, const Doubles& target, const MiniBatch& batch, int column,
                      bool double_dqn) {
   const auto i = static_cast<size_t>(column);
+  const double least = static_cast<double>(batch.least_values[i]);
   if (batch.terminal[i] != 0) {
-    return static_cast<double>(batch.rewards[i]);
+    return std::max(least, static_cast<double>(batch.rewards[i]));
   }
   const Doubles values = Forward(target, batch.next_observations, column);
   const Doubles choosing = double_dqn ? Forward(current, batch.next_observations, column) : values;
@@ -57,7 +58,8 @@ double LiteralTarget(const Doubles& current, const Doubles& target, const MiniBa
       best = action;
     }
   }
-  return static_cast<double>(batch.rewards[i]) + kDiscount * values[static_cast<size_t>(best)];
+  return std::max(least,
+                  static_cast<double>(batch.rewards[i]) + kDiscount * values[static_cast<size_t>(best)]);
 }
 
 double LiteralLoss(const Doubles& parameters, const Doubles& targets, const MiniBatch& batch) {
@@ -82,6 +84,9 @@ MiniBatch RandomBatch(RandomStream& stream) {
     batch.actions[i] = static_cast<int16_t>(stream.NextBelow(4));
     batch.rewards[i] = static_cast<float>(-stream.NextUniform());
     batch.terminal[i] = column == 2 ? 1 : 0;
+    if (column % 3 == 0) {  // one that never decides, one that always does, one in between
+      batch.least_values[i] = static_cast<float>(column) - 3;
+    }
     const auto allowed = static_cast<int>(stream.NextBelow(4));
     for (int action = 0; action < 4; ++action) {
       const bool is_allowed = action == allowed || stream.NextBelow(2) == 0;

@@ -30,7 +30,7 @@ void InsertTransition(int k, ReplayMemory& memory) {
     }
   }
   memory.Insert({observation, next_observation, static_cast<int16_t>(k % kActions), value * 0.5f - 3,
-                 k % 4 == 3, mask});
+                 k % 4 == 3, mask, value - 100});
 }
 
 ReplayMemory MemoryOf(int transitions, int64_t capacity) {
@@ -76,6 +76,7 @@ TEST(ReplayMemory, GivesBackWhatWasInserted) {
     const auto i = static_cast<size_t>(column);
     const int k = drawn[i];
     const auto value = static_cast<float>(k);
+    EXPECT_EQ(batch.least_values[i], value - 100);
     EXPECT_EQ(batch.observations.col(column),
               Vector::Map(std::vector{value, value + 0.25f, value + 0.5f}.data(), 3));
     EXPECT_EQ(batch.next_observations.col(column),

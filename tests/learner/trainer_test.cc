@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "tests/learner/recorded_run.h"
 
@@ -15,8 +16,9 @@ namespace {
 /// Algorithm 1 as a loop: every committed transition in one list, the newest 300 drawn from.
 class LiteralTraining {
  public:
-  explicit LiteralTraining(const RecordedRun& run)
+  explicit LiteralTraining(const RecordedRun& run, bool flown_return_bound = false)
       : run_(&run),
+        flown_return_bound_(flown_return_bound),
         dqn_(run.experiment.network_shape(), InitialParameters(run.experiment.network_shape(), 5),
              {true, 1.0f, kBatch, {0.9, 0.999, 1e-8}}) {}
 
@@ -31,6 +33,10 @@ class LiteralTraining {
       row.terminal = environment.outcome() != Outcome::kFlying;
       row.next_mask.resize(static_cast<size_t>(run_->world.actions()));
       environment.WriteMask({true, true}, row.next_mask);
+      if (flown_return_bound_) {
+        const auto from = episode.rewards.begin() + (environment.state().slot - 2);
+        row.least_value = static_cast<float>(std::accumulate(from, episode.rewards.end(), 0.0));
+      }
       rows_.push_back(row);
       if (rows_.size() >= 40 && rows_.size() % 2 == 0) {
         Update();
@@ -49,6 +55,7 @@ class LiteralTraining {
     float reward = 0;
     bool terminal = false;
     std::vector<uint8_t> next_mask;
+    float least_value = -std::numeric_limits<float>::infinity();
   };
 
   Vector Input(const Environment& environment) const {
@@ -85,6 +92,7 @@ class LiteralTraining {
   }
 
   const RecordedRun* run_;
+  bool flown_return_bound_;
   Dqn dqn_;
   std::vector<Row> rows_;
   uint32_t updates_ = 0;
@@ -101,6 +109,25 @@ TEST(Trainer, TrainsAsTheLiteralLoopDoes) {
     }
     ASSERT_TRUE(run.trainer.current() == literal.weights()) << "after order " << run.episodes.size() - 1;
   }
+}
+
+TEST(Trainer, BoundsTargetsByWhatWasFlownAsTheLiteralLoopDoes) {
+  RecordedRun run(Settings{{"agent.flown_return_bound", "true"}});
+  LiteralTraining literal(run, true);
+  LiteralTraining without(run);
+  while (!run.trainer.finished()) {
+    const OrderKind kind = run.next().kind;
+    run.Commit(run.Fly(run.next()));
+    if (kind == OrderKind::kTrain) {
+      literal.Take(run.episodes.back());
+      without.Take(run.episodes.back());
+    }
+    const float largest = run.trainer.current().cwiseAbs().maxCoeff();
+    const float difference = (run.trainer.current() - literal.weights()).cwiseAbs().maxCoeff();
+    ASSERT_LE(difference, 1e-3f * largest)
+        << "after order " << run.episodes.size() - 1;  // sums in other orders
+  }
+  EXPECT_GT((run.trainer.current() - without.weights()).cwiseAbs().maxCoeff(), 1e-2f);
 }
 
 TEST(Trainer, MakesVersionsAndTargetCopiesAtTheirUpdates) {
