@@ -47,7 +47,8 @@ PriceAscent::PriceAscent(const PlannerProblem& problem, const SlotCells& slot_ce
       meter_(&meter),
       sensors_(static_cast<size_t>(problem.size())),
       widest_(static_cast<size_t>(Width(problem.slots()))),
-      dear_step_(static_cast<double>(*std::max_element(problem.weights().begin(), problem.weights().end()))) {
+      dear_step_(static_cast<double>(*std::max_element(problem.weights().begin(), problem.weights().end())) /
+                 4) {
   prices_.presence.assign(slot_cells.places() * sensors_, 0);
   prices_.transmission.assign(slot_cells.places(), 0);
   offsets_.assign(static_cast<size_t>(problem.slots()) + 1, 0);
@@ -92,9 +93,6 @@ float PriceAscent::DearShare(Move move) const {
 
 void PriceAscent::Run() {
   double before = Evaluate();
-  for (int i = 0; problem_->energy_binds() && i < kSweepsBetweenChecks; ++i) {
-    ImproveDearPrice();
-  }
   const auto sweep_units = static_cast<int64_t>(entries_) * 2 * kUnitsPerEntry;
   const int64_t most_sweeps = std::max<int64_t>(1, kMostWork / sweep_units);
   for (int64_t sweep = 1; sweep <= most_sweeps && !meter_->stopped(); ++sweep) {
@@ -122,19 +120,25 @@ double PriceAscent::Evaluate() {
   return bound;
 }
 
-// The bound is concave in the price of a dear slot.
+// The bound is concave in the price of a dear slot: steps that double while they raise it, up or down.
 void PriceAscent::ImproveDearPrice() {
-  const double price = prices_.dear_slot;
-  const double bound = Evaluate();
+  double bound = Evaluate();
   for (const double direction : {1.0, -1.0}) {
-    prices_.dear_slot = std::max(0.0, price + direction * dear_step_);
-    if (prices_.dear_slot != price && Evaluate() > bound) {
-      dear_step_ *= 2;
-      return;
+    const double first_price = prices_.dear_slot;
+    for (double step = dear_step_; !meter_->stopped(); step *= 2) {
+      const double price = prices_.dear_slot;
+      prices_.dear_slot = std::max(0.0, price + direction * step);
+      const double next_bound = prices_.dear_slot == price ? bound : Evaluate();
+      if (next_bound <= bound) {
+        prices_.dear_slot = price;
+        break;
+      }
+      bound = next_bound;
+    }
+    if (prices_.dear_slot != first_price) {
+      break;
     }
   }
-  prices_.dear_slot = price;
-  dear_step_ /= 2;
   SweepBackward(false);
 }
 

@@ -67,7 +67,7 @@ class PriceAscent {
   size_t sensors_;
   size_t widest_;
   CellPrices prices_;
-  double dear_step_ = 0;
+  double dear_step_ = 0;         // the first one of a search for a better price
   std::vector<size_t> offsets_;  // by slot
   // By place, sensor and AoI:
   size_t entries_ = 0;

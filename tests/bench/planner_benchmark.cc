@@ -1,6 +1,5 @@
 // The exact planner to the proof of its optimum: seconds, labels kept and peak resident memory on random
-// deployments of Table I's grid. The arguments of each case are sensors, coverage radius in cells and the
-// deployment's seed. R = 6 cells takes minutes; leave it out with --benchmark_filter=-.*radius:6.*
+// deployments over Table I's grid, by sensors, coverage radius in cells and the deployment's seed.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -155,7 +157,7 @@ struct KnownOptimum {
   int64_t total_aoi;
 };
 
-// From an independent program (docs/results.md).
+// Known before this planner was written: a trial with other bounds had found and proved them.
 TEST(Planner, ReachesTheKnownTotalsOfThePapersGrid) {
   const std::vector<Cell> spread = {{8, 7}, {1, 4}, {18, 19}};
   for (const KnownOptimum& known : std::vector<KnownOptimum>{{spread, 1, 3733},
