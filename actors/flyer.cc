@@ -47,7 +47,6 @@ Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
       mask_options_(experiment.mask_options()),
       double_dqn_(experiment.agent().double_dqn()),
       discount_(static_cast<float>(experiment.agent().discount())),
-      longest_exploration_slots_(experiment.schedule().longest_exploration_slots()),
       capacity_(capacity),
       current_workspace_(mlp_.shape(), capacity),
       target_workspace_(mlp_.shape(), capacity) {}
@@ -115,50 +114,31 @@ void Flyer::FinishLastTransition(Flight& flight, int column) {
   }
   const Matrix& target_values = target_workspace_.output();
   const Matrix& choosing = double_dqn_ ? current_workspace_.output() : target_values;
-  const int next_action = GreedyAction(choosing, column, flight.mask, 0, world_->actions());
-  const float next_value = target_values(next_action, column);
+  const float next_value = target_values(GreedyAction(choosing, column, flight.mask), column);
   flight.episode.td_errors.back() =
       flight.episode.rewards.back() + discount_ * next_value - flight.chosen_value;
 }
 
-int Flyer::ChooseAction(Flight& flight, int column) const {
-  if (flight.kept_slots > 0) {
-    const int action = KeepExploring(flight, column);
-    if (action >= 0) {
-      return action;
-    }
-  }
+int Flyer::ChooseAction(const Flight& flight, int column) const {
   const auto slot = static_cast<uint32_t>(flight.environment.state().slot);
   RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(flight.order.index),
                       slot);
   if (stream.NextUniform() < flight.order.epsilon) {
     const auto allowed = static_cast<uint32_t>(std::count(flight.mask.begin(), flight.mask.end(), 1));
-    const int action = AllowedAction(flight.mask, stream.NextBelow(allowed));
-    flight.kept_move = world_->ActionAt(action).move;
-    flight.kept_slots = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(longest_exploration_slots_)));
-    return action;
+    return AllowedAction(flight.mask, stream.NextBelow(allowed));
   }
-  return GreedyAction(current_workspace_.output(), column, flight.mask, 0, world_->actions());
+  return GreedyAction(current_workspace_.output(), column, flight.mask);
 }
 
-/// The best action with the kept move; -1 where it is not allowed any more, and the exploration over.
-int Flyer::KeepExploring(Flight& flight, int column) const {
-  const int first = world_->ActionIndex({flight.kept_move, 0});
-  const int action =
-      GreedyAction(current_workspace_.output(), column, flight.mask, first, first + world_->sensors() + 1);
-  flight.kept_slots = action < 0 ? 0 : flight.kept_slots - 1;
-  return action;
-}
-
-int Flyer::GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask, int first,
-                        int end) {
+int Flyer::GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) const {
   int best = -1;
-  for (int action = first; action < end; ++action) {
+  for (int action = 0; action < world_->actions(); ++action) {
     if (mask[static_cast<size_t>(action)] != 0 &&
         (best < 0 || values(action, column) > values(best, column))) {
       best = action;
     }
   }
+  FRESCO_CHECK(best >= 0);
   return best;
 }
 

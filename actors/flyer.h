@@ -46,26 +46,20 @@ class Flyer {
     Environment environment;
     std::vector<uint8_t> mask;  // of the present state
     Episode episode;
-    float chosen_value = 0;         // Q(s, a) of the last transition
-    Move kept_move = Move::kHover;  // of an exploration that lasts several slots
-    int kept_slots = 0;             // for how many more of them
+    float chosen_value = 0;  // Q(s, a) of the last transition
   };
 
   void StepGroup(std::vector<Flight*>& group);
   void FinishLastTransition(Flight& flight, int column);
-  int ChooseAction(Flight& flight, int column) const;
-  int KeepExploring(Flight& flight, int column) const;
+  int ChooseAction(const Flight& flight, int column) const;
   void Act(Flight& flight, int action, float value);
-  /// Of the allowed actions first .. end - 1; -1: none is allowed.
-  static int GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask, int first,
-                          int end);
+  int GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) const;
 
   const World* world_;
   Mlp mlp_;
   MaskOptions mask_options_;
   bool double_dqn_;
   float discount_;
-  int longest_exploration_slots_;
   int capacity_;
   MlpWorkspace current_workspace_;
   MlpWorkspace target_workspace_;
