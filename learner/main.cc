@@ -77,7 +77,7 @@ class LearnerProcess {
       std::rethrow_exception(network_error);
     }
     WriteResults();
-    return trainer_.finished();
+    return completed_;
   }
 
  private:
@@ -145,6 +145,7 @@ class LearnerProcess {
           fmt::format("the search for the exact optimum, {:.0f} s more at most", optimum_->seconds_left()));
       Report();
     }
+    completed_ = trainer_.finished() && optimum_->WaitForEnd(0);
     optimum_->Stop();
     Report();
   }
@@ -164,8 +165,8 @@ class LearnerProcess {
       folder_.WriteOptimum(OptimumJson(world_, *plan));
     }
     folder_.WriteFinal(trainer_.current(), trainer_.progress());
-    folder_.WriteSummary(SummaryJson(
-        {experiment_, world_, run_id_, trainer_.finished(), wall_s_, trainer_, node_.counters(), plan}));
+    folder_.WriteSummary(
+        SummaryJson({experiment_, world_, run_id_, completed_, wall_s_, trainer_, node_.counters(), plan}));
   }
 
   Experiment experiment_;
@@ -178,7 +179,8 @@ class LearnerProcess {
   OptimumSearch::Limits optimum_limits_;
   std::optional<OptimumSearch> optimum_;  // from the run's beginning
   int64_t begin_us_ = 0;
-  double wall_s_ = 0;  // of the training
+  double wall_s_ = 0;       // of the training
+  bool completed_ = false;  // training and search came to their ends
 };
 
 int Main(int argc, char** argv) {

@@ -58,7 +58,7 @@ Experiment BaseExperiment(const FiguresOptions& options) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
   const std::string config = options.config.empty()
-                                 ? ConfigPath(options.quick ? "ci.textproto" : "figures.textproto")
+                                 ? ConfigPath(options.quick ? "ci.textproto" : "quick.textproto")
                                  : options.config;
   return Experiment::Load(config, settings);
 }
@@ -434,7 +434,7 @@ void AddFigures(CLI::App& app, Command& command) {
   figures->add_option("--out", options->out, "Folder for figures and runs; goes on where it was stopped")
       ->required();
   figures->add_option("--config", options->config,
-                      "Field, agent and schedule; default: figures.textproto (--quick: ci.textproto)");
+                      "Field, agent and schedule; default: quick.textproto (--quick: ci.textproto)");
   figures->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
   figures->add_option("--deployments", options->deployments, "Random deployments a point; default: 3")
       ->check(CLI::Range(1, 1000));
