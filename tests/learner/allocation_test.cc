@@ -2,42 +2,14 @@
 // a program of its own.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cerrno>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include "learner/dqn.h"
 #include "learner/replay_memory.h"
+#include "tests/support/allocation_count.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-
-namespace {
-std::atomic<int64_t> allocations{0};
-}  // namespace
-
-// glibc's own functions: everything that asks for memory ends here.
-extern "C" {
-void* __libc_malloc(size_t size);
-void* __libc_memalign(size_t alignment, size_t size);
-
-void* malloc(size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-
-void* aligned_alloc(size_t alignment, size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-
-int posix_memalign(void** memory, size_t alignment, size_t size) {
-  ++allocations;
-  *memory = __libc_memalign(alignment, size);
-  return *memory == nullptr ? ENOMEM : 0;
-}
-}
 
 namespace fresco {
 namespace {
@@ -67,18 +39,18 @@ class TrainingAllocations : public ::testing::Test {
 };
 
 TEST_F(TrainingAllocations, AreSeenByThisTest) {
-  const int64_t before = allocations;
+  const int64_t before = AllocationCount();
   const auto batch = std::make_unique<MiniBatch>(kInputs, kActions, kBatch);
-  EXPECT_GE(allocations - before, 7);
+  EXPECT_GE(AllocationCount() - before, 7);
 }
 
 TEST_F(TrainingAllocations, DoNotHappenInTheReplayMemoryFromTheFirstTransitionOn) {
-  const int64_t before = allocations;
+  const int64_t before = AllocationCount();
   for (uint32_t i = 0; i < 1200; ++i) {
     Insert();
     Sample(i);
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(AllocationCount(), before);
 }
 
 TEST_F(TrainingAllocations, DoNotHappenInUpdatesAndTargetCopiesOnceWarm) {
@@ -95,11 +67,11 @@ TEST_F(TrainingAllocations, DoNotHappenInUpdatesAndTargetCopiesOnceWarm) {
       dqn.CopyToTarget();
     };
     update(0);
-    const int64_t before = allocations;
+    const int64_t before = AllocationCount();
     for (uint32_t index = 1; index < 6; ++index) {
       update(index);
     }
-    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(AllocationCount(), before);
   }
 }
 
