@@ -12,6 +12,17 @@
 #include "tools/live_line.h"
 
 namespace fresco {
+namespace {
+
+std::string Describe(const World& world, const PlannerProgress& progress, double passed_s) {
+  return fmt::format(
+      "searching for {:.0f} s | slot {} of {} | {} labels of {} at most | average AoI between {:.4f} and "
+      "{:.4f}",
+      passed_s, progress.slot, world.scenario().slots, progress.labels, progress.width,
+      progress.lower_bound_average, progress.best_average);
+}
+
+}  // namespace
 
 std::filesystem::path NetworkPath(const std::string& policy) {
   const std::filesystem::path path(policy);
@@ -34,17 +45,16 @@ Flight FlyNetwork(const World& world, const Experiment& experiment, const Stored
 }
 
 Plan PlanWithin(const World& world, const PlannerLimits& limits) {
+  constexpr double kSilentS = 1;  // most searches are over by then
   const int64_t begin_us = MonotonicMicroseconds();
   LiveLine line(limits.show_progress);
   PlannerOptions options;
   options.memory_bytes = limits.memory_bytes;
   options.keep_going = [&](const PlannerProgress& progress) {
     const double passed_s = static_cast<double>(MonotonicMicroseconds() - begin_us) * 1e-6;
-    line.Show(
-        fmt::format("searching for {:.0f} s | slot {} of {} | {} labels of {} at most | average AoI "
-                    "between {:.4f} and {:.4f}",
-                    passed_s, progress.slot, world.scenario().slots, progress.labels, progress.width,
-                    progress.lower_bound_average, progress.best_average));
+    if (passed_s > kSilentS) {
+      line.Show(Describe(world, progress, passed_s));
+    }
     return !StopSignal::Requested() && (limits.seconds <= 0 || passed_s < limits.seconds);
   };
   return PlanOptimally(world, options);
