@@ -37,6 +37,9 @@ function(fresco_executable name)
   target_link_libraries(${name} PRIVATE fresco_compile_options fresco_warnings)
 endfunction()
 
+# Builds every test program that carries the label unit, and no more than that.
+add_custom_target(unit_tests)
+
 # fresco_test(name LABEL label SOURCES ... LIBRARIES ...): one gtest program, one CTest entry.
 function(fresco_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
@@ -48,6 +51,9 @@ function(fresco_test name)
   endif()
   fresco_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main)
+  if(arg_LABEL STREQUAL "unit")
+    add_dependencies(unit_tests ${name})
+  endif()
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
 endfunction()
