@@ -1,6 +1,7 @@
 #include "tools/figure_writer.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <optional>
@@ -94,6 +95,10 @@ class FigureWriter {
     std::vector<std::vector<CsvCell>> rows;
     for (size_t job = 0; job < study_.jobs.size(); ++job) {
       const StudyResult& result = results_[job];
+      if (!result.optimum_proved) {
+        spdlog::warn("the optimum of {} is not proved; its lower bound stands in its place",
+                     study_.jobs[job].name);
+      }
       rows.push_back({study_.jobs[job].name, fmt::format("{:08x}", study_.jobs[job].experiment.hash()),
                       int64_t{result.arrived}, result.total_aoi, result.aoi_total_aoi,
                       result.distance_total_aoi,
