@@ -77,8 +77,9 @@ int Train(const TrainOptions& options) {
   TrainingRun run(experiment, folder);
   const int status = MindRun(run);
   const std::string summary = run.Summary();
-  WriteRunReport(folder);
   fmt::print("{}", text ? ResultTable(summary) : summary);
+  std::fflush(stdout);
+  WriteRunReport(folder);  // after the results: nothing that befalls a picture may hide them
   if (status != 0) {
     fmt::print(stderr, "fresco: the run was interrupted; what it learned so far is in {}\n", folder.string());
   } else if (text) {
