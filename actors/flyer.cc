@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/check.h"
-#include "core/random.h"
 
 namespace fresco {
 namespace {
@@ -29,6 +28,24 @@ int AllowedAction(const std::vector<uint8_t>& mask, uint32_t number) {
   FRESCO_CHECK(false);
 }
 
+/// The first allowed action of the largest value among those from `first` to before `end`.
+std::optional<int> BestAllowedAction(const Matrix& values, int column, const std::vector<uint8_t>& mask,
+                                     int first, int end) {
+  std::optional<int> best;
+  for (int action = first; action < end; ++action) {
+    if (mask[static_cast<size_t>(action)] != 0 && (!best || values(action, column) > values(*best, column))) {
+      best = action;
+    }
+  }
+  return best;
+}
+
+int GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) {
+  const std::optional<int> best = BestAllowedAction(values, column, mask, 0, static_cast<int>(mask.size()));
+  FRESCO_CHECK(best);
+  return *best;
+}
+
 }  // namespace
 
 Flyer::Flight::Flight(const World& world, const Order& flown_order, SharedParameters current_parameters,
@@ -43,10 +60,12 @@ Flyer::Flight::Flight(const World& world, const Order& flown_order, SharedParame
 
 Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
     : world_(&world),
+      network_input_(world, experiment.network_input_options()),
       mlp_(experiment.network_shape()),
       mask_options_(experiment.mask_options()),
       double_dqn_(experiment.agent().double_dqn()),
       discount_(static_cast<float>(experiment.agent().discount())),
+      excursion_share_(experiment.schedule().excursion_share()),
       capacity_(capacity),
       current_workspace_(mlp_.shape(), capacity),
       target_workspace_(mlp_.shape(), capacity) {}
@@ -93,8 +112,9 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
   const int batch = static_cast<int>(group.size());
   const auto forward = [&](const SharedParameters& parameters, MlpWorkspace& workspace) {
     for (int column = 0; column < batch; ++column) {
-      WriteNetworkInput(*world_, group[static_cast<size_t>(column)]->environment.state(),
-                        {workspace.input().col(column).data(), static_cast<size_t>(world_->inputs())});
+      network_input_.Write(
+          group[static_cast<size_t>(column)]->environment.state(),
+          {workspace.input().col(column).data(), static_cast<size_t>(network_input_.size())});
     }
     mlp_.Forward({parameters->data(), static_cast<size_t>(parameters->size())}, batch, workspace);
   };
@@ -119,27 +139,43 @@ void Flyer::FinishLastTransition(Flight& flight, int column) {
       flight.episode.rewards.back() + discount_ * next_value - flight.chosen_value;
 }
 
-int Flyer::ChooseAction(const Flight& flight, int column) const {
-  const auto slot = static_cast<uint32_t>(flight.environment.state().slot);
-  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(flight.order.index),
-                      slot);
-  if (stream.NextUniform() < flight.order.epsilon) {
-    const auto allowed = static_cast<uint32_t>(std::count(flight.mask.begin(), flight.mask.end(), 1));
-    return AllowedAction(flight.mask, stream.NextBelow(allowed));
-  }
-  return GreedyAction(current_workspace_.output(), column, flight.mask);
+int Flyer::ChooseAction(Flight& flight, int column) const {
+  const std::optional<int> exploring = Explore(flight, column);
+  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.mask);
 }
 
-int Flyer::GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) const {
-  int best = -1;
-  for (int action = 0; action < world_->actions(); ++action) {
-    if (mask[static_cast<size_t>(action)] != 0 &&
-        (best < 0 || values(action, column) > values(best, column))) {
-      best = action;
-    }
+/// A random action, or one of an excursion: a straight flight to a random cell, scheduling greedily. It
+/// ends there, or where the mask does not let it go on. Nothing where the greedy action is due.
+std::optional<int> Flyer::Explore(Flight& flight, int column) const {
+  const State& state = flight.environment.state();
+  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(flight.order.index),
+                      static_cast<uint32_t>(state.slot));
+  if (flight.waypoint == state.cell) {
+    flight.waypoint.reset();
   }
-  FRESCO_CHECK(best >= 0);
-  return best;
+  if (!flight.waypoint) {
+    if (stream.NextUniform() >= flight.order.epsilon) {
+      return std::nullopt;
+    }
+    if (excursion_share_ == 0 || stream.NextUniform() >= excursion_share_) {
+      const auto allowed = static_cast<uint32_t>(std::count(flight.mask.begin(), flight.mask.end(), 1));
+      return AllowedAction(flight.mask, stream.NextBelow(allowed));
+    }
+    flight.waypoint = RandomCell(stream);
+  }
+  const int first = world_->ActionIndex({MoveTowards(state.cell, *flight.waypoint), 0});
+  const std::optional<int> action = BestAllowedAction(current_workspace_.output(), column, flight.mask, first,
+                                                      first + world_->sensors() + 1);
+  if (!action) {
+    flight.waypoint.reset();
+  }
+  return action;
+}
+
+Cell Flyer::RandomCell(RandomStream& stream) const {
+  const int column = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(world_->scenario().columns)));
+  const int row = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(world_->scenario().rows)));
+  return {column, row};
 }
 
 void Flyer::Act(Flight& flight, int action, float value) {

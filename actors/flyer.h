@@ -7,13 +7,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/random.h"
 #include "msgs/episode.h"
 #include "msgs/experiment.h"
 #include "msgs/order.h"
 #include "nn/mlp.h"
 #include "uav/environment.h"
+#include "uav/network_input.h"
 
 namespace fresco {
 
@@ -46,20 +49,24 @@ class Flyer {
     Environment environment;
     std::vector<uint8_t> mask;  // of the present state
     Episode episode;
-    float chosen_value = 0;  // Q(s, a) of the last transition
+    float chosen_value = 0;        // Q(s, a) of the last transition
+    std::optional<Cell> waypoint;  // where an excursion leads
   };
 
   void StepGroup(std::vector<Flight*>& group);
   void FinishLastTransition(Flight& flight, int column);
-  int ChooseAction(const Flight& flight, int column) const;
+  int ChooseAction(Flight& flight, int column) const;
+  std::optional<int> Explore(Flight& flight, int column) const;
   void Act(Flight& flight, int action, float value);
-  int GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) const;
+  Cell RandomCell(RandomStream& stream) const;
 
   const World* world_;
+  NetworkInput network_input_;
   Mlp mlp_;
   MaskOptions mask_options_;
   bool double_dqn_;
   float discount_;
+  double excursion_share_;
   int capacity_;
   MlpWorkspace current_workspace_;
   MlpWorkspace target_workspace_;

@@ -29,13 +29,14 @@ Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput
       world_(&world),
       output_(std::move(output)),
       expected_updates_(ExpectedUpdates(experiment.schedule(), world.maximum_transitions())),
-      replay_(world.inputs(), world.actions(), experiment.agent().replay_capacity()),
-      batch_(world.inputs(), world.actions(), experiment.agent().batch_size()),
+      network_input_(world, experiment.network_input_options()),
+      replay_(network_input_.size(), world.actions(), experiment.agent().replay_capacity()),
+      batch_(network_input_.size(), world.actions(), experiment.agent().batch_size()),
       dqn_(experiment.network_shape(),
            InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
            OptionsOf(experiment.agent())),
-      observation_(static_cast<size_t>(world.inputs())),
-      next_observation_(static_cast<size_t>(world.inputs())),
+      observation_(static_cast<size_t>(network_input_.size())),
+      next_observation_(static_cast<size_t>(network_input_.size())),
       least_values_(static_cast<size_t>(world.maximum_transitions())) {}
 
 void Trainer::Begin() {
@@ -93,8 +94,8 @@ void Trainer::CommitTraining(const Episode& episode) {
 
 void Trainer::Insert(const Episode& episode, int transition) {
   const auto i = static_cast<size_t>(transition);
-  WriteNetworkInput(*world_, episode.states[i], observation_);
-  WriteNetworkInput(*world_, episode.states[i + 1], next_observation_);
+  network_input_.Write(episode.states[i], observation_);
+  network_input_.Write(episode.states[i + 1], next_observation_);
   const auto mask_size = static_cast<size_t>(MaskSize(*world_));
   const bool last = transition + 1 == episode.transitions();
   replay_.Insert({observation_, next_observation_, episode.actions[i], episode.rewards[i], last,

@@ -16,6 +16,7 @@
 #include "msgs/experiment.h"
 #include "msgs/order.h"
 #include "uav/flight.h"
+#include "uav/network_input.h"
 
 namespace fresco {
 
@@ -101,6 +102,7 @@ class Trainer {
   const World* world_;
   TrainerOutput output_;
   int64_t expected_updates_;
+  NetworkInput network_input_;
   ReplayMemory replay_;
   MiniBatch batch_;
   Dqn dqn_;

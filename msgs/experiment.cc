@@ -193,7 +193,7 @@ Experiment Experiment::Load(const std::string& path, const Settings& settings) {
 
 MlpShape Experiment::network_shape() const {
   const int sensors = static_cast<int>(scenario_.sensors.size());
-  std::vector<int> sizes = {sensors + 4};
+  std::vector<int> sizes = {NetworkInput::Size(sensors, network_input_options())};
   sizes.insert(sizes.end(), agent().hidden_layers().begin(), agent().hidden_layers().end());
   sizes.push_back(kMoves * (sensors + 1));
   return MlpShape(sizes);

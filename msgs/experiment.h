@@ -10,6 +10,7 @@
 #include "msgs/proto/experiment.pb.h"
 #include "nn/mlp.h"
 #include "uav/environment.h"
+#include "uav/network_input.h"
 #include "uav/scenario.h"
 
 namespace fresco {
@@ -33,8 +34,9 @@ class Experiment {
   const proto::Run& run() const { return config_.run(); }
   const Scenario& scenario() const { return scenario_; }
 
-  /// The network of this experiment: inputs N + 4, outputs 5 (N + 1).
+  /// The network of this experiment: inputs as NetworkInput has them, outputs 5 (N + 1).
   MlpShape network_shape() const;
+  NetworkInputOptions network_input_options() const { return {agent().sensor_geometry()}; }
   MaskOptions mask_options() const;
 
   /// The complete configuration in text format.

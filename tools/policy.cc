@@ -35,9 +35,10 @@ std::filesystem::path NetworkPath(const std::string& policy) {
 }
 
 Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
-  if (network.experiment.network_shape().inputs() != world.inputs()) {
+  const size_t trained_for = network.experiment.scenario().sensors.size();
+  if (trained_for != world.scenario().sensors.size()) {
     throw UsageError(fmt::format("--policy: the network was trained for {} sensors, the scenario has {}",
-                                 network.experiment.network_shape().inputs() - 4, world.sensors()));
+                                 trained_for, world.sensors()));
   }
   const Episode episode = FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
   size_t next = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "core/check.h"
@@ -41,19 +40,6 @@ int NearestIndex(double position_m, double cell_m, int cells) {
 Cell NearestCell(const Scenario& scenario, const Sensor& sensor) {
   return {NearestIndex(sensor.x_m, scenario.cell_m, scenario.columns),
           NearestIndex(sensor.y_m, scenario.cell_m, scenario.rows)};
-}
-
-// One cell along the axis with the larger distance, columns first at equal ones; hover when there.
-Move MoveTowards(Cell from, Cell to) {
-  const int columns = to.column - from.column;
-  const int rows = to.row - from.row;
-  if (columns == 0 && rows == 0) {
-    return Move::kHover;
-  }
-  if (std::abs(columns) >= std::abs(rows)) {
-    return columns > 0 ? Move::kEast : Move::kWest;
-  }
-  return rows > 0 ? Move::kNorth : Move::kSouth;
 }
 
 // To the stop and, once there, hovering as long as that is affordable, else to and fro.

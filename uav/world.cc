@@ -31,11 +31,6 @@ bool Within(double x_m, double y_m, const Sensor& sensor, double radius_m) {
   return std::hypot(x_m - sensor.x_m, y_m - sensor.y_m) <= radius_m * kLeeway;
 }
 
-// A difference of two lengths along one axis as the share of the grid, 0 on a grid of one cell.
-float Share(int position, int cells) {
-  return cells > 1 ? static_cast<float>(position) / static_cast<float>(cells - 1) : 0.0f;
-}
-
 }  // namespace
 
 const char* MoveName(Move move) {
@@ -138,19 +133,16 @@ Action World::ActionAt(int index) const {
   return {static_cast<Move>(index / (sensors() + 1)), index % (sensors() + 1)};
 }
 
-void WriteNetworkInput(const World& world, const State& state, std::span<float> input) {
-  FRESCO_CHECK(input.size() == static_cast<size_t>(world.inputs()));
-  FRESCO_CHECK(state.aoi.size() == static_cast<size_t>(world.sensors()));
-  const Scenario& scenario = world.scenario();
-  const auto slots = static_cast<float>(scenario.slots);
-  size_t next = 0;
-  input[next++] = Share(state.cell.column, scenario.columns);
-  input[next++] = Share(state.cell.row, scenario.rows);
-  for (const int16_t aoi : state.aoi) {
-    input[next++] = static_cast<float>(aoi) / slots;
+Move MoveTowards(Cell from, Cell to) {
+  const int columns = to.column - from.column;
+  const int rows = to.row - from.row;
+  if (columns == 0 && rows == 0) {
+    return Move::kHover;
   }
-  input[next++] = static_cast<float>(state.time_margin) / slots;
-  input[next++] = state.energy_margin_j / static_cast<float>(scenario.initial_energy_j);
+  if (std::abs(columns) >= std::abs(rows)) {
+    return columns > 0 ? Move::kEast : Move::kWest;
+  }
+  return rows > 0 ? Move::kNorth : Move::kSouth;
 }
 
 }  // namespace fresco

@@ -43,7 +43,6 @@ class World {
   const Scenario& scenario() const { return scenario_; }
   int sensors() const { return static_cast<int>(scenario_.sensors.size()); }  ///< N
   int actions() const { return kMoves * (sensors() + 1); }
-  int inputs() const { return sensors() + 4; }
   int maximum_transitions() const { return scenario_.slots - 1; }
 
   /// theta_n, summing to one.
@@ -98,12 +97,10 @@ double EnergyMargin(const World& world, Cell cell, int slots_left, double remain
 /// hovered); otherwise the slack is hovered.
 double CompletionEnergy(const World& world, Cell cell, int slots_left);
 
+/// One cell along the axis with the larger distance, columns first at equal ones; hover when there.
+Move MoveTowards(Cell from, Cell to);
+
 /// Whether the stop can still be reached from a situation: exactly, in time and in energy.
 bool CanReachStop(const World& world, Cell cell, int slots_left, double remaining_j);
-
-/// The network's input: [column/(columns-1), row/(rows-1), delta_n/T.., phi/T, Delta/E_max]; a grid of
-/// one column or row gives 0 there. `input` has inputs() entries. A pure function of the state as it
-/// is on the wire, so that actor and learner see the same bits.
-void WriteNetworkInput(const World& world, const State& state, std::span<float> input);
 
 }  // namespace fresco

@@ -61,14 +61,14 @@ class LiteralTraining {
   };
 
   Vector Input(const Environment& environment) const {
-    Vector input(run_->world.inputs());
-    WriteNetworkInput(run_->world, environment.state(), {input.data(), static_cast<size_t>(input.size())});
+    Vector input(network_input_.size());
+    network_input_.Write(environment.state(), {input.data(), static_cast<size_t>(input.size())});
     return input;
   }
 
   void Update() {
     RandomStream stream(5, RandomPurpose::kReplaySampling, updates_, 0);
-    MiniBatch batch(run_->world.inputs(), run_->world.actions(), kBatch);
+    MiniBatch batch(network_input_.size(), run_->world.actions(), kBatch);
     for (int column = 0; column < kBatch; ++column) {
       size_t place = stream.NextBelow(static_cast<uint32_t>(std::min<size_t>(rows_.size(), 300)));
       while (place + 300 < rows_.size()) {
@@ -95,6 +95,7 @@ class LiteralTraining {
   }
 
   const RecordedRun* run_;
+  NetworkInput network_input_{run_->world, run_->experiment.network_input_options()};
   bool flown_return_bound_;
   Dqn dqn_;
   std::vector<Row> rows_;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "tests/uav/test_scenarios.h"
+#include "uav/network_input.h"
 
 namespace fresco {
 namespace {
@@ -87,12 +88,13 @@ TEST(Flight, NeverLooksBetterForEndingEarly) {
 TEST(Flight, KeepsAgesAndInputsWithinTheirBounds) {
   for (uint32_t index = 0; index < 300; ++index) {
     const World world(RandomScenario(index));
-    std::vector<float> input(static_cast<size_t>(world.inputs()));
+    const NetworkInput network_input(world, {.sensor_geometry = true});
+    std::vector<float> input(static_cast<size_t>(network_input.size()));
     for (const FlightSlot& slot : FlyRandomly(world, index, true).slots) {
       const auto [youngest, oldest] = std::minmax_element(slot.state.aoi.begin(), slot.state.aoi.end());
       EXPECT_GE(*youngest, 1);
       EXPECT_LE(*oldest, slot.state.slot);
-      WriteNetworkInput(world, slot.state, input);
+      network_input.Write(slot.state, input);
       for (const float value : input) {
         EXPECT_GE(value, 0.0f);
         EXPECT_LE(value, 1.0f);

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <set>
 #include <string>
 
@@ -18,7 +17,6 @@ using testing::ElementsAre;
 TEST(World, HasTheSizesOfThePaper) {
   const World world(TableOneScenario());
   EXPECT_EQ(world.sensors(), 3);
-  EXPECT_EQ(world.inputs(), 7);
   EXPECT_EQ(world.actions(), 20);
   EXPECT_EQ(world.maximum_transitions(), 69);
 }
@@ -106,26 +104,14 @@ TEST(World, CoversTheSameCellsWhenTheRadiusComesFromItsPower) {
   EXPECT_TRUE(World(scenario).Covers({12, 7}, 0));
 }
 
-TEST(NetworkInput, IsTheStateScaledToOne) {
-  const World world(TableOneScenario());
-  const State state{
-      .slot = 20, .cell = {19, 5}, .time_margin = 35, .energy_margin_j = 5500, .aoi = {7, 14, 70}};
-  std::array<float, 7> input{};
-  WriteNetworkInput(world, state, input);
-  EXPECT_THAT(input, ElementsAre(1.0f, 5.0f / 19.0f, 0.1f, 0.2f, 1.0f, 0.5f, 0.25f));
-}
-
-TEST(NetworkInput, IsZeroAlongAnAxisOfOneCell) {
-  Scenario scenario;
-  scenario.columns = 1;
-  scenario.rows = 1;
-  scenario.start = scenario.stop = {0, 0};
-  scenario.sensors = {{0, 0, 1}};
-  const World world(scenario);
-  std::array<float, 5> input{9, 9, 9, 9, 9};
-  WriteNetworkInput(
-      world, State{.slot = 1, .cell = {0, 0}, .time_margin = 70, .energy_margin_j = 0, .aoi = {1}}, input);
-  EXPECT_THAT(input, ElementsAre(0.0f, 0.0f, 1.0f / 70.0f, 1.0f, 0.0f));
+TEST(MoveTowards, TakesTheLongerAxisAndColumnsAtEqualDistances) {
+  EXPECT_EQ(MoveTowards({3, 3}, {3, 3}), Move::kHover);
+  EXPECT_EQ(MoveTowards({3, 3}, {5, 4}), Move::kEast);
+  EXPECT_EQ(MoveTowards({3, 3}, {1, 4}), Move::kWest);
+  EXPECT_EQ(MoveTowards({3, 3}, {4, 5}), Move::kNorth);
+  EXPECT_EQ(MoveTowards({3, 3}, {2, 0}), Move::kSouth);
+  EXPECT_EQ(MoveTowards({3, 3}, {2, 2}), Move::kWest);
+  EXPECT_EQ(MoveTowards({3, 3}, {4, 4}), Move::kEast);
 }
 
 }  // namespace
