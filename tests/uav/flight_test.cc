@@ -88,7 +88,7 @@ TEST(Flight, NeverLooksBetterForEndingEarly) {
 TEST(Flight, KeepsAgesAndInputsWithinTheirBounds) {
   for (uint32_t index = 0; index < 300; ++index) {
     const World world(RandomScenario(index));
-    const NetworkInput network_input(world, {.sensor_geometry = true});
+    const NetworkInput network_input(world, {});
     std::vector<float> input(static_cast<size_t>(network_input.size()));
     for (const FlightSlot& slot : FlyRandomly(world, index, true).slots) {
       const auto [youngest, oldest] = std::minmax_element(slot.state.aoi.begin(), slot.state.aoi.end());
