@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "tests/actors/literal_flight.h"
 
@@ -17,7 +18,18 @@ int Allowed(const Mask& mask) {
   return std::accumulate(mask.begin(), mask.end(), 0);
 }
 
-class FlyerActions : public ::testing::TestWithParam<bool> {
+struct Variant {
+  bool masks;
+  bool sensor_geometry;
+};
+
+Settings SettingsOf(const Variant& variant) {
+  Settings settings = variant.masks ? WithMasks() : Settings{};
+  settings.emplace_back("agent.sensor_geometry", variant.sensor_geometry ? "true" : "false");
+  return settings;
+}
+
+class FlyerActions : public ::testing::TestWithParam<Variant> {
  protected:
   FlightPlan Plan(int64_t index, double epsilon, uint32_t network = 1) const {
     return {TrainOrder(index, epsilon), SampleNetwork(experiment_, network), SampleNetwork(experiment_, 0)};
@@ -36,7 +48,7 @@ class FlyerActions : public ::testing::TestWithParam<bool> {
     return episodes;
   }
 
-  Experiment experiment_ = SmallField(GetParam() ? WithMasks() : Settings{});
+  Experiment experiment_ = SmallField(SettingsOf(GetParam()));
   World world_{experiment_.scenario()};
 };
 
@@ -128,8 +140,12 @@ TEST_P(FlyerActions, OfFlyGreedilyAreThoseOfAnyOrderWithEpsilonZero) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Masks, FlyerActions, ::testing::Bool(),
-                         [](const auto& instance) { return instance.param ? "Masked" : "Free"; });
+INSTANTIATE_TEST_SUITE_P(Options, FlyerActions,
+                         ::testing::Values(Variant{false, false}, Variant{true, false}, Variant{true, true}),
+                         [](const auto& instance) {
+                           return std::string(instance.param.masks ? "Masked" : "Free") +
+                                  (instance.param.sensor_geometry ? "WithGeometry" : "");
+                         });
 
 }  // namespace
 }  // namespace fresco

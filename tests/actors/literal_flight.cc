@@ -1,6 +1,7 @@
 #include "tests/actors/literal_flight.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace fresco {
@@ -13,6 +14,20 @@ Doubles LiteralValues(const Experiment& experiment, const Vector& parameters, co
   }
   input.push_back(static_cast<double>(state.time_margin) / scenario.slots);
   input.push_back(static_cast<double>(state.energy_margin_j) / scenario.initial_energy_j);
+  if (experiment.agent().sensor_geometry()) {
+    Doubles distances_m;
+    for (const Sensor& sensor : scenario.sensors) {
+      const double east_m = sensor.x_m - state.cell.column * scenario.cell_m;
+      const double north_m = sensor.y_m - state.cell.row * scenario.cell_m;
+      distances_m.push_back(std::sqrt(east_m * east_m + north_m * north_m));
+    }
+    for (const double distance_m : distances_m) {
+      input.push_back(distance_m <= scenario.coverage_radius_m ? 1 : 0);
+    }
+    for (const double distance_m : distances_m) {
+      input.push_back(distance_m / (std::max(scenario.columns, scenario.rows) * scenario.cell_m));
+    }
+  }
   const Doubles wide(parameters.data(), parameters.data() + parameters.size());
   return LiteralForward(experiment.network_shape().layer_sizes(), wide, input);
 }

@@ -115,6 +115,19 @@ TEST(Trainer, TrainsAsTheLiteralLoopDoes) {
   }
 }
 
+TEST(Trainer, TrainsOnWhatTheNetworkSeesAsTheLiteralLoopDoes) {
+  RecordedRun run(Settings{{"agent.sensor_geometry", "true"}, {"schedule.excursion_share", "0.5"}});
+  LiteralTraining literal(run);
+  while (!run.trainer.finished()) {
+    const OrderKind kind = run.next().kind;
+    run.Commit(run.Fly(run.next()));
+    if (kind == OrderKind::kTrain) {
+      literal.Take(run.episodes.back());
+    }
+    ASSERT_TRUE(run.trainer.current() == literal.weights()) << "after order " << run.episodes.size() - 1;
+  }
+}
+
 TEST(Trainer, BoundsTargetsByWhatWasFlownAsTheLiteralLoopDoes) {
   RecordedRun run(Settings{{"agent.flown_return_bound", "true"}});
   LiteralTraining literal(run, true);
