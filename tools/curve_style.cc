@@ -51,6 +51,7 @@ std::string ColourOption(CurveRole role, CurveShape shape) {
 std::string LineOptions(CurveRole role, CurveShape shape) {
   const RoleStyle style = StyleOf(role);
   switch (shape) {
+    case CurveShape::kMarkers:
     case CurveShape::kTopMarks:
       return "";
     case CurveShape::kFaintDots:
@@ -64,6 +65,7 @@ std::string PointOptions(CurveRole role, CurveShape shape) {
   const RoleStyle style = StyleOf(role);
   switch (shape) {
     case CurveShape::kLineAndMarkers:
+    case CurveShape::kMarkers:
       return fmt::format("pointtype {} pointsize {}", style.marker, style.marker_size);
     case CurveShape::kFaintDots:
       return "pointtype 7 pointsize 0.3";
@@ -83,6 +85,7 @@ const char* PlottingStyle(CurveShape shape) {
       return "lines";
     case CurveShape::kSteps:
       return "steps";
+    case CurveShape::kMarkers:
     case CurveShape::kTopMarks:
       return "points";
   }

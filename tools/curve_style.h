@@ -18,6 +18,7 @@ enum class CurveRole {
 
 enum class CurveShape {
   kLineAndMarkers,  ///< a few points that were measured, joined for the eye
+  kMarkers,         ///< a few points between which nothing is known
   kLine,
   kSteps,      ///< keeps its value until the next point
   kFaintDots,  ///< many scattered values behind other curves; NaN in y interrupts their line

@@ -123,10 +123,10 @@ class FigureWriter {
     for (const Policy& policy : kPolicies) {
       Curve curve{policy.name, policy.role};
       constexpr double kAside = 0.05;  // so that the spreads of several policies can be told apart
-      const double aside = kAside * (static_cast<double>(plot.curves.size()) - 1.5);
+      curve.bars_aside = kAside * (static_cast<double>(plot.curves.size()) - 1.5);
       for (const Group& group : groups) {
         const MeanEstimate estimate = group.Average(policy);
-        curve.x.push_back(group.x + aside);
+        curve.x.push_back(group.x);
         curve.y.push_back(estimate.mean);
         curve.half_widths.push_back(estimate.half_width.value_or(0));
       }
@@ -186,7 +186,7 @@ class FigureWriter {
     for (const Policy& policy : kPolicies) {
       const bool trained = policy.role == CurveRole::kDqn;
       plot.curves.push_back(
-          {policy.name, policy.role, trained ? CurveShape::kLineAndMarkers : CurveShape::kSteps});
+          {policy.name, policy.role, trained ? CurveShape::kMarkers : CurveShape::kSteps});
     }
     std::vector<std::vector<CsvCell>> rows;
     for (const double budget_j : BudgetsOf(figure.figure, groups)) {

@@ -39,6 +39,11 @@ double HalfWidth(const Curve& curve, size_t i) {
   return width > 0 ? width : 0;
 }
 
+bool HasSpread(const Curve& curve) {
+  return std::any_of(curve.half_widths.begin(), curve.half_widths.end(),
+                     [](double width) { return width > 0; });
+}
+
 void CheckCurve(const Curve& curve) {
   const bool has_y = curve.shape != CurveShape::kTopMarks;
   FRESCO_CHECK(curve.y.size() == (has_y ? curve.x.size() : 0));
@@ -53,7 +58,10 @@ void CheckCurve(const Curve& curve) {
 Range XRange(const LinePlot& plot) {
   Range range;
   for (const Curve& curve : plot.curves) {
-    std::for_each(curve.x.begin(), curve.x.end(), [&](double x) { range.Add(x); });
+    for (const double x : curve.x) {
+      range.Add(x);
+      range.Add(x + (HasSpread(curve) ? curve.bars_aside : 0));
+    }
   }
   return range.Padded(0.03, 0.03);
 }
@@ -97,11 +105,6 @@ std::string DataScript(const Curve& curve, size_t number, double top_y) {
   return script + "END\n";
 }
 
-bool HasSpread(const Curve& curve) {
-  return std::any_of(curve.half_widths.begin(), curve.half_widths.end(),
-                     [](double width) { return width > 0; });
-}
-
 std::string SpreadCommand(const Curve& curve, size_t number) {
   if (curve.spread == Spread::kBand) {
     constexpr int kNearlyClear = 0xD0;
@@ -110,8 +113,9 @@ std::string SpreadCommand(const Curve& curve, size_t number) {
   }
   // Not yerrorbars: it leaves a gap around the point, even where none is drawn.
   return fmt::format(
-      "$curve{} using 1:($3>0?$2-$3:NaN):(0):(2*$3) with vectors heads size graph 0.005,90 linewidth 1.1 {}",
-      number, ColourOption(curve.role, 0));
+      "$curve{} using ($1+{}):($3>0?$2-$3:NaN):(0):(2*$3) with vectors heads size graph 0.005,90 "
+      "linewidth 1.1 {}",
+      number, curve.bars_aside, ColourOption(curve.role, 0));
 }
 
 std::string CurveCommand(const Curve& curve, size_t number) {

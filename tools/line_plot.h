@@ -21,6 +21,7 @@ struct Curve {
   std::vector<double> y{};            ///< as many as x (none for kTopMarks); finite but for kFaintDots
   std::vector<double> half_widths{};  ///< none, or as many as x, in y's unit; 0 or NaN: not known there
   Spread spread = Spread::kBars;
+  double bars_aside = 0;  ///< how far beside their points the bars stand, in x's unit: to tell curves apart
 };
 
 /// A horizontal line over the whole width, such as a bound.
