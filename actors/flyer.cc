@@ -8,16 +8,6 @@
 namespace fresco {
 namespace {
 
-void AppendMask(const std::vector<uint8_t>& mask, std::vector<uint8_t>& packed) {
-  const size_t begin = packed.size();
-  packed.resize(begin + (mask.size() + 7) / 8, 0);
-  for (size_t action = 0; action < mask.size(); ++action) {
-    if (mask[action] != 0) {
-      packed[begin + action / 8] = static_cast<uint8_t>(packed[begin + action / 8] | (1u << (action % 8)));
-    }
-  }
-}
-
 /// The `number`-th allowed action, counted from 0.
 int AllowedAction(const std::vector<uint8_t>& mask, uint32_t number) {
   for (size_t action = 0; action < mask.size(); ++action) {

@@ -13,6 +13,8 @@
 namespace fresco {
 namespace {
 
+constexpr char kTemporary[] = ".tmp";  // and the process id
+
 /// Closes its descriptor; `Fail` throws with the cause that errno names.
 class Descriptor {
  public:
@@ -60,7 +62,7 @@ class Descriptor {
 
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view content) {
   std::filesystem::path temporary = path;
-  temporary += ".tmp" + std::to_string(::getpid());
+  temporary += kTemporary + std::to_string(::getpid());
   try {
     {
       Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
@@ -77,6 +79,12 @@ void WriteFileAtomically(const std::filesystem::path& path, std::string_view con
   }
   const std::filesystem::path parent = path.has_parent_path() ? path.parent_path() : ".";
   Descriptor(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC).Sync();
+}
+
+bool IsTemporaryOfAtomicFile(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension.starts_with(kTemporary) && extension.size() > sizeof kTemporary - 1 &&
+         extension.find_first_not_of("0123456789", sizeof kTemporary - 1) == std::string::npos;
 }
 
 std::string ReadFile(const std::filesystem::path& path) {

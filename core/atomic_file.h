@@ -12,6 +12,9 @@ namespace fresco {
 /// what it was before.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
 
+/// Whether this is the temporary file of WriteFileAtomically, left by a process that was killed.
+bool IsTemporaryOfAtomicFile(const std::filesystem::path& path);
+
 /// The content of a file. Throws UsageError naming the path where it can't be read.
 std::string ReadFile(const std::filesystem::path& path);
 

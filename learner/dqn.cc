@@ -37,6 +37,13 @@ Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options)
       gradient_(shape.parameter_count()),
       choices_(static_cast<size_t>(options.batch_size)) {}
 
+void Dqn::Restore(const Vector& current, const Vector& target, const Adam::State& adam) {
+  FRESCO_CHECK(current.size() == current_.size() && target.size() == target_.size());
+  current_ = current;
+  target_ = target;
+  adam_.Restore(adam);
+}
+
 double Dqn::Update(const MiniBatch& batch, double learning_rate) {
   FRESCO_CHECK(batch.size() == options_.batch_size);
   const int size = batch.size();

@@ -32,6 +32,10 @@ class Dqn {
 
   const Vector& current() const { return current_; }
   const Vector& target() const { return target_; }
+  const Adam::State& adam() const { return adam_.state(); }
+
+  /// Goes on from networks and moments of another time. CHECKs their sizes.
+  void Restore(const Vector& current, const Vector& target, const Adam::State& adam);
 
  private:
   void ComputeTargets(const MiniBatch& batch);

@@ -1,5 +1,6 @@
 #include "learner/episode_check.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace fresco {
@@ -10,40 +11,42 @@ bool SameState(const State& a, const State& b) {
          std::memcmp(&a.energy_margin_j, &b.energy_margin_j, sizeof a.energy_margin_j) == 0 && a.aoi == b.aoi;
 }
 
-bool SameMask(const std::vector<uint8_t>& mask, const uint8_t* packed) {
-  for (size_t action = 0; action < mask.size(); ++action) {
-    if (((packed[action / 8] >> (action % 8)) & 1) != mask[action]) {
-      return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
-bool FollowsFromItsActions(const World& world, MaskOptions mask_options, const Episode& episode) {
+bool FlyActions(const World& world, MaskOptions mask_options, std::span<const int16_t> actions,
+                Episode& episode) {
+  episode.Clear();
   Environment environment(world);
   environment.Reset();
   std::vector<uint8_t> mask(static_cast<size_t>(world.actions()));
   environment.WriteMask(mask_options, mask);
-  if (episode.states.empty() || !SameState(environment.state(), episode.states.front())) {
-    return false;
-  }
-  const auto mask_size = static_cast<size_t>(MaskSize(world));
-  for (size_t i = 0; i < episode.actions.size(); ++i) {
-    const auto action = static_cast<size_t>(episode.actions[i]);
-    if (environment.outcome() != Outcome::kFlying || mask[action] == 0) {
+  episode.states.push_back(environment.state());
+  for (const int16_t action : actions) {
+    if (action < 0 || action >= world.actions() || mask[static_cast<size_t>(action)] == 0) {
       return false;
     }
-    const StepResult result = environment.Step(world.ActionAt(static_cast<int>(action)));
+    const StepResult result = environment.Step(world.ActionAt(action));
     environment.WriteMask(mask_options, mask);
-    if (static_cast<float>(result.reward) != episode.rewards[i] ||
-        !SameState(environment.state(), episode.states[i + 1]) ||
-        !SameMask(mask, episode.next_masks.data() + i * mask_size)) {
-      return false;
+    episode.actions.push_back(action);
+    episode.rewards.push_back(static_cast<float>(result.reward));
+    episode.td_errors.push_back(0);
+    episode.states.push_back(environment.state());
+    AppendMask(mask, episode.next_masks);
+    episode.outcome = result.outcome;
+    if (result.terminal()) {
+      return true;
     }
   }
-  return environment.outcome() == episode.outcome && episode.outcome != Outcome::kFlying;
+  return false;
+}
+
+bool FollowsFromItsActions(const World& world, MaskOptions mask_options, const Episode& episode) {
+  Episode flown;
+  return FlyActions(world, mask_options, episode.actions, flown) &&
+         flown.transitions() == episode.transitions() && flown.outcome == episode.outcome &&
+         flown.rewards == episode.rewards && flown.next_masks == episode.next_masks &&
+         std::equal(flown.states.begin(), flown.states.end(), episode.states.begin(), episode.states.end(),
+                    SameState);
 }
 
 }  // namespace fresco

@@ -178,7 +178,8 @@ void LearnerNode::HandleStatus(const actor_status_t& message) {
 }
 
 void LearnerNode::HandleRun(const run_t& message) {
-  if (message.run_id != identity_.run_id && message.finished == 0) {
+  const bool own = message.run_id == identity_.run_id && announced_;
+  if (!own && message.finished == 0) {
     if (foreign_run_ != message.run_id) {
       spdlog::warn("another run, {:016x}, is on {}: it does no harm, but shares the bandwidth",
                    static_cast<uint64_t>(message.run_id), channels_.run);
@@ -213,6 +214,7 @@ void LearnerNode::SendRunIfDue(int64_t now_us) {
 void LearnerNode::SendRun(bool finished) {
   {
     const std::lock_guard lock(mutex_);
+    announced_ = true;
     announcement_.current_version = progress_.current_version;
     announcement_.target_version = progress_.target_version;
   }
@@ -313,7 +315,7 @@ learner_status_t LearnerNode::Status(int64_t now_us) {
   status.received = counters_.received;
   status.duplicate = counters_.duplicate;
   status.rejected = counters_.rejected;
-  status.lost = roster_.late_orders();
+  status.lost = counters_.lost + roster_.late_orders();
   status.reordered_episodes = counters_.reordered_episodes;
   status.waiting_for = WaitingForLocked(now_us).substr(0, 160);
   return status;
@@ -346,8 +348,13 @@ void LearnerNode::AnnounceEnd() {
 BusCounters LearnerNode::counters() const {
   const std::lock_guard lock(mutex_);
   BusCounters counters = counters_;
-  counters.lost = roster_.late_orders();
+  counters.lost += roster_.late_orders();
   return counters;
+}
+
+void LearnerNode::RestoreCounters(const BusCounters& counters) {
+  const std::lock_guard lock(mutex_);
+  counters_ = counters;
 }
 
 int64_t LearnerNode::foreign_run() const {

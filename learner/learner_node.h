@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "learner/bus_counters.h"
 #include "learner/ledger.h"
 #include "learner/optimum_search.h"
 #include "learner/roster.h"
@@ -23,19 +24,6 @@
 #include "msgs/channels.h"
 
 namespace fresco {
-
-/// What happened to messages, for summary.json's `bus` and the status.
-struct BusCounters {
-  int64_t received = 0;               ///< messages of this run
-  int64_t lost = 0;                   ///< orders whose result had to be asked for again
-  int64_t duplicate = 0;              ///< transitions messages that brought nothing new
-  int64_t rejected = 0;               ///< sum of the causes below
-  int64_t rejected_malformed = 0;     ///< does not decode, or values out of range
-  int64_t rejected_foreign = 0;       ///< another run, another configuration, an order never written
-  int64_t rejected_inconsistent = 0;  ///< an episode that does not follow from its actions
-  int64_t rejected_arithmetic = 0;    ///< statuses of actors whose arithmetic differs
-  int64_t reordered_episodes = 0;     ///< complete before an earlier one
-};
 
 class LearnerNode {
  public:
@@ -62,8 +50,10 @@ class LearnerNode {
 
   // ---- Any thread.
   BusCounters counters() const;
+  /// Goes on counting from these, of the same run's learner before.
+  void RestoreCounters(const BusCounters& counters);
   std::string WaitingFor() const;
-  /// Set as soon as another run's learner was heard on the same channels.
+  /// Set as soon as another learner was heard on the same channels: the run that it announces.
   int64_t foreign_run() const;
 
  private:
@@ -107,6 +97,7 @@ class LearnerNode {
   std::string finishing_;
   bool trainer_waits_ = false;
   int64_t foreign_run_ = 0;
+  bool announced_ = false;  // this run, by this node
 
   // The network thread's own.
   std::vector<std::byte> bytes_;

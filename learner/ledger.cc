@@ -1,6 +1,7 @@
 #include "learner/ledger.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 #include "learner/episode_check.h"
@@ -8,6 +9,9 @@
 namespace fresco {
 
 void Ledger::Write(const Order& order) {
+  if (!std::exchange(begun_, true)) {
+    committed_ = order.index;
+  }
   FRESCO_CHECK(order.index == committed_ + in_flight());
   entries_.emplace_back().order = order;
 }

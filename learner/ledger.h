@@ -24,7 +24,7 @@ class Ledger {
   /// `world` must outlive the ledger.
   Ledger(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
 
-  /// Enters an order. CHECKs that indices come without gap.
+  /// Enters an order. The first one says where the sequence begins; CHECKs that indices come without gap.
   void Write(const Order& order);
 
   enum class Arrival {
@@ -65,6 +65,7 @@ class Ledger {
 
   const World* world_;
   MaskOptions mask_options_;
+  bool begun_ = false;
   int64_t committed_ = 0;
   std::deque<Entry> entries_;
 };

@@ -44,6 +44,10 @@ class ReplayMemory {
 
   void Insert(const Transition& transition);
 
+  /// An empty memory goes on as if `transitions` had been inserted and were forgotten: the next one takes
+  /// the place that it would have.
+  void BeginAt(int64_t transitions) { next_ = transitions % capacity_; }
+
   /// Transitions held, at most the capacity.
   int64_t size() const { return size_; }
 

@@ -9,23 +9,58 @@
 #include "msgs/network_file.h"
 
 namespace fresco {
+namespace {
 
-RunFolder::RunFolder(std::filesystem::path directory, const Experiment& experiment)
-    : directory_(std::move(directory)), experiment_(experiment) {
+constexpr int64_t kResumePatienceUs = 5'000'000;  // a learner that was told to end may still be writing
+
+std::filesystem::path Made(std::filesystem::path directory) {
   std::error_code error;
-  std::filesystem::create_directories(directory_, error);
+  std::filesystem::create_directories(directory, error);
   if (error) {
-    throw UsageError(
-        fmt::format("--out: can't make the folder {}: {}", directory_.string(), error.message()));
+    throw UsageError(fmt::format("--out: can't make the folder {}: {}", directory.string(), error.message()));
   }
+  return directory;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(std::filesystem::path directory, const Experiment& experiment, Use use)
+    : directory_(Made(std::move(directory))),
+      lock_(directory_, use == Use::kResume ? kResumePatienceUs : 0),
+      experiment_(experiment),
+      checkpoints_(directory_),
+      metrics_(
+          "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,total_aoi,"
+          "average_aoi,sum_aoi\n") {
+  if (use == Use::kNewRun) {
+    RefuseResults();
+  } else {
+    ClearLeftovers();
+  }
+  WriteFileAtomically(directory_ / "config.textproto", experiment.Text());
+}
+
+void RunFolder::RefuseResults() const {
   if (std::filesystem::exists(directory_ / "summary.json")) {
     throw UsageError(
         fmt::format("--out: {} holds another run's results; name a new folder", directory_.string()));
   }
-  WriteFileAtomically(directory_ / "config.textproto", experiment.Text());
-  metrics_ =
-      "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,total_aoi,average_aoi,"
-      "sum_aoi\n";
+  if (!checkpoints_.Latest().empty()) {
+    throw UsageError(
+        fmt::format("--out: {} holds a run that did not end; go on with it (--resume {}) or "
+                    "name a new folder",
+                    directory_.string(), directory_.string()));
+  }
+}
+
+/// The summary of an interrupted run, and temporary files of a process that was killed.
+void RunFolder::ClearLeftovers() const {
+  std::filesystem::remove(directory_ / "summary.json");
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory_)) {
+    if (IsTemporaryOfAtomicFile(entry.path())) {
+      std::filesystem::remove(entry.path());
+    }
+  }
 }
 
 void RunFolder::AddMetrics(const Evaluation& evaluation, const TrainerProgress& progress, double wall_s) {
@@ -34,17 +69,31 @@ void RunFolder::AddMetrics(const Evaluation& evaluation, const TrainerProgress& 
                   evaluation.episodes, progress.transitions, evaluation.updates, evaluation.version,
                   progress.epsilon, progress.learning_rate, progress.loss, evaluation.arrived ? 1 : 0,
                   evaluation.figures.total_aoi, evaluation.figures.average_aoi, evaluation.figures.sum_aoi);
-  WriteFileAtomically(directory_ / "metrics.csv", metrics_);
+  writer_.Write({"metrics", directory_ / "metrics.csv", [text = metrics_] { return text; }, {}});
 }
 
 void RunFolder::WriteBest(const BestNetwork& best) {
-  WriteNetworkFile(directory_ / "best.network",
-                   {experiment_, best.evaluation.version, best.evaluation.updates, *best.parameters});
+  const StoredNetwork network{experiment_, best.evaluation.version, best.evaluation.updates,
+                              *best.parameters};
+  writer_.Write(
+      {"best", directory_ / "best.network", [network] { return SerializeNetworkFile(network); }, {}});
+}
+
+void RunFolder::WriteCheckpoint(std::shared_ptr<const Checkpoint> checkpoint) {
+  const int64_t committed_orders = checkpoint->training.progress.committed_orders;
+  const int kept = experiment_.run().checkpoints_kept();
+  writer_.Write({kCheckpoint, checkpoints_.PathFor(committed_orders),
+                 [this, checkpoint] {
+                   checkpoints_.Make();
+                   return SerializeCheckpoint(*checkpoint);
+                 },
+                 [this, kept] { checkpoints_.Prune(kept); }});
 }
 
 void RunFolder::WriteFinal(const Vector& parameters, const TrainerProgress& progress) {
-  WriteNetworkFile(directory_ / "final.network",
-                   {experiment_, progress.current_version, progress.updates, parameters});
+  WriteFileAtomically(
+      directory_ / "final.network",
+      SerializeNetworkFile({experiment_, progress.current_version, progress.updates, parameters}));
 }
 
 void RunFolder::WriteSummary(const std::string& json) {

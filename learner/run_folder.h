@@ -1,35 +1,64 @@
-// A run's folder: config.textproto, metrics.csv, best.network, final.network, optimum.json,
-// summary.json. Every
-// file is whole at any time. Used by one thread.
+// A run's folder: config.textproto, metrics.csv, best.network, final.network, optimum.json, summary.json
+// and checkpoints/. Every file is whole at any time. What changes during the training is written by a
+// thread of its own; a full disk does not stop the training. Used by one thread, and by one process at a
+// time.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "learner/trainer.h"
+#include "core/folder_lock.h"
+#include "learner/checkpoint_folder.h"
+#include "learner/file_writer.h"
 #include "msgs/experiment.h"
+#include "msgs/training_state.h"
 
 namespace fresco {
 
 class RunFolder {
  public:
-  /// Makes the folder and writes the configuration. Throws UsageError where the folder holds another
-  /// run's summary or can't be made.
-  RunFolder(std::filesystem::path directory, const Experiment& experiment);
+  enum class Use { kNewRun, kResume };
+
+  /// Makes the folder and writes the configuration. Throws UsageError where the folder can't be made,
+  /// another process works in it, or (kNewRun) it holds another run's results. kResume: takes over what
+  /// an incomplete run has left, and clears its half-written files away.
+  RunFolder(std::filesystem::path directory, const Experiment& experiment, Use use = Use::kNewRun);
 
   const std::filesystem::path& directory() const { return directory_; }
 
+  // ---- During the training; these return at once.
   /// Adds an evaluation and what it stands beside to metrics.csv.
   void AddMetrics(const Evaluation& evaluation, const TrainerProgress& progress, double wall_s);
   void WriteBest(const BestNetwork& best);
+  void WriteCheckpoint(std::shared_ptr<const Checkpoint> checkpoint);
+  /// Whether the checkpoint before is still being written.
+  bool CheckpointIsBusy() const { return writer_.IsBusy(kCheckpoint); }
+  /// What can't be written now; empty: nothing.
+  std::string problem() const { return writer_.problem(); }
+
+  /// The text of metrics.csv so far, and to go on from.
+  const std::string& metrics() const { return metrics_; }
+  void RestoreMetrics(std::string metrics) { metrics_ = std::move(metrics); }
+
+  // ---- At the end; these throw Failure where the disk does not take it.
+  /// Waits until everything of the above is written.
+  void Finish() { writer_.Finish(); }
   void WriteFinal(const Vector& parameters, const TrainerProgress& progress);
   void WriteSummary(const std::string& json);
   void WriteOptimum(const std::string& json);
 
  private:
+  static constexpr char kCheckpoint[] = "checkpoint";
+
+  void RefuseResults() const;
+  void ClearLeftovers() const;
+
   std::filesystem::path directory_;
+  FolderLock lock_;
   Experiment experiment_;
+  CheckpointFolder checkpoints_;
   std::string metrics_;
+  FileWriter writer_;
 };
 
 }  // namespace fresco

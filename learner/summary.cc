@@ -22,15 +22,11 @@ Json BaselineFigures(const World& world, BaselineKind kind) {
 }
 
 Json Counters(const BusCounters& counters) {
-  return {{"received", counters.received},
-          {"lost", counters.lost},
-          {"duplicate", counters.duplicate},
-          {"rejected", counters.rejected},
-          {"rejected_malformed", counters.rejected_malformed},
-          {"rejected_foreign", counters.rejected_foreign},
-          {"rejected_inconsistent", counters.rejected_inconsistent},
-          {"rejected_arithmetic", counters.rejected_arithmetic},
-          {"reordered_episodes", counters.reordered_episodes}};
+  Json json;
+  for (const BusCounterField& field : kBusCounterFields) {
+    json[field.name] = counters.*field.value;
+  }
+  return json;
 }
 
 void AddPolicy(const std::optional<BestNetwork>& best, Json& json) {
@@ -95,6 +91,10 @@ std::string SummaryJson(const SummaryInputs& inputs) {
                        {"distance", BaselineFigures(inputs.world, BaselineKind::kDistance)}};
   json["staleness_updates"] = progress.staleness_updates;
   json["bus"] = Counters(inputs.counters);
+  json["resumptions"] = inputs.resumptions;
+  json["checkpoints"] = {
+      {"taken", inputs.checkpoints.taken},
+      {"longest_pause_ms", 1e-3 * static_cast<double>(inputs.checkpoints.longest_pause_us)}};
   json["software_version"] = kSoftwareVersion;
   return json.dump(2);
 }

@@ -2,13 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
-#include "learner/learner_node.h"
+#include "learner/bus_counters.h"
 #include "learner/trainer.h"
 #include "msgs/experiment.h"
+#include "uav/planner.h"
 
 namespace fresco {
+
+/// The checkpoints that this process took, and for how long the training stood still for one at most.
+struct CheckpointFigures {
+  int64_t taken = 0;
+  int64_t longest_pause_us = 0;
+};
 
 /// Everything that a summary is made of.
 struct SummaryInputs {
@@ -20,6 +28,8 @@ struct SummaryInputs {
   const Trainer& trainer;
   BusCounters counters;
   std::shared_ptr<const Plan> plan;  ///< of the search for the optimum; null: none
+  int resumptions = 0;               ///< how often the run was gone on with
+  CheckpointFigures checkpoints = {};
 };
 
 /// One JSON object. The policy's figures are those of the best evaluated version; `arrived` and the

@@ -31,6 +31,7 @@ Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput
       expected_updates_(ExpectedUpdates(experiment.schedule(), world.maximum_transitions())),
       network_input_(world, experiment.network_input_options()),
       replay_(network_input_.size(), world.actions(), experiment.agent().replay_capacity()),
+      history_(experiment.agent().replay_capacity(), world.maximum_transitions()),
       batch_(network_input_.size(), world.actions(), experiment.agent().batch_size()),
       dqn_(experiment.network_shape(),
            InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
@@ -40,27 +41,26 @@ Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput
       least_values_(static_cast<size_t>(world.maximum_transitions())) {}
 
 void Trainer::Begin() {
-  newest_ = {std::make_shared<const Vector>(dqn_.current()), 0};
-  output_.version(NetworkKind::kCurrent, 0, newest_.parameters);
-  output_.version(NetworkKind::kTarget, 0, newest_.parameters);
+  Offer(NetworkKind::kCurrent, 0, dqn_.current());
+  Offer(NetworkKind::kTarget, 0, dqn_.target());
   for (int i = 0; i < experiment_.schedule().window(); ++i) {
     WriteNextOrder();
   }
 }
 
 void Trainer::Commit(const Order& order, const Episode& episode) {
-  FRESCO_CHECK(order.index == progress_.committed_orders && episode.order_index == order.index);
+  FRESCO_CHECK(!orders_.empty() && order == orders_.front().order && episode.order_index == order.index);
   if (order.kind == OrderKind::kEvaluate) {
     CommitEvaluation(order, episode);
   } else {
-    Average(static_cast<double>(progress_.updates - updates_at_writing_.at(order.index)),
+    Average(static_cast<double>(progress_.updates - orders_.front().updates_at_writing),
             progress_.staleness_updates);
     CommitTraining(episode);
   }
-  updates_at_writing_.erase(order.index);
+  orders_.pop_front();
   ++progress_.committed_orders;
   WriteNextOrder();
-  finished_ = final_evaluation_written_ && progress_.committed_orders == next_index_;
+  ForgetVersions();
 }
 
 /// What the episode earned from each transition on: the world is deterministic, so that much is within
@@ -82,6 +82,7 @@ void Trainer::CommitTraining(const Episode& episode) {
   TakeLeastValues(episode);
   for (int transition = 0; transition < episode.transitions(); ++transition) {
     Insert(episode, transition);
+    history_.Add(episode.actions[static_cast<size_t>(transition)], transition + 1 == episode.transitions());
     ++progress_.transitions;
     progress_.replay_size = replay_.size();
     if (progress_.transitions >= experiment_.schedule().minimum_replay_size() &&
@@ -124,16 +125,30 @@ void Trainer::UpdateOnce() {
 
 void Trainer::CopyToTarget() {
   dqn_.CopyToTarget();
-  ++progress_.target_version;
-  output_.version(NetworkKind::kTarget, progress_.target_version,
-                  std::make_shared<const Vector>(dqn_.target()));
+  Offer(NetworkKind::kTarget, ++progress_.target_version, dqn_.target());
 }
 
 void Trainer::MakeVersion() {
-  ++progress_.current_version;
-  newest_ = {std::make_shared<const Vector>(dqn_.current()), progress_.updates};
-  output_.version(NetworkKind::kCurrent, progress_.current_version, newest_.parameters);
+  Offer(NetworkKind::kCurrent, ++progress_.current_version, dqn_.current());
   evaluation_due_ |= progress_.current_version % experiment_.schedule().versions_per_evaluation() == 0;
+}
+
+void Trainer::Offer(NetworkKind kind, int32_t version, const Vector& parameters) {
+  const auto copy = std::make_shared<const Vector>(parameters);
+  versions_[{kind, version}] = {kind, version, progress_.updates, copy};
+  output_.version(kind, version, copy);
+}
+
+/// Orders name the newest versions of their time, so a version older than those of the oldest order
+/// is not named any more.
+void Trainer::ForgetVersions() {
+  const bool none = orders_.empty();
+  const int32_t current = none ? progress_.current_version : orders_.front().order.current_version;
+  const int32_t target = none ? progress_.target_version : orders_.front().order.target_version;
+  std::erase_if(versions_, [&](const auto& entry) {
+    const auto& [kind, version] = entry.first;
+    return version < (kind == NetworkKind::kCurrent ? current : target);
+  });
 }
 
 void Trainer::WriteNextOrder() {
@@ -147,7 +162,7 @@ void Trainer::WriteNextOrder() {
 }
 
 void Trainer::FinishTraining() {
-  if (newest_.updates != progress_.updates) {
+  if (versions_.at({NetworkKind::kCurrent, progress_.current_version}).updates != progress_.updates) {
     MakeVersion();  // the final version, however few updates it has
   }
   WriteOrder(OrderKind::kEvaluate);
@@ -156,7 +171,7 @@ void Trainer::FinishTraining() {
 
 void Trainer::WriteOrder(OrderKind kind) {
   Order order;
-  order.index = next_index_++;
+  order.index = progress_.committed_orders + static_cast<int64_t>(orders_.size());
   order.kind = kind;
   order.seed = experiment_.schedule().seed();
   order.current_version = progress_.current_version;
@@ -165,18 +180,14 @@ void Trainer::WriteOrder(OrderKind kind) {
     order.epsilon = EpsilonOf(experiment_.schedule(), training_orders_++, progress_.transitions);
     progress_.epsilon = order.epsilon;
   } else {
-    evaluating_[order.index] = newest_;
     evaluation_due_ = false;
   }
-  updates_at_writing_[order.index] = progress_.updates;
+  orders_.push_back({order, progress_.updates});
   output_.order(order);
 }
 
 void Trainer::CommitEvaluation(const Order& order, const Episode& episode) {
-  const auto found = evaluating_.find(order.index);
-  FRESCO_CHECK(found != evaluating_.end());
-  const Version version = found->second;
-  evaluating_.erase(found);
+  const VersionState& version = versions_.at({NetworkKind::kCurrent, order.current_version});
   AoiAccumulator accumulator(*world_);
   for (const State& state : episode.states) {
     accumulator.Add(state.aoi);

@@ -4,60 +4,31 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "learner/action_history.h"
 #include "learner/dqn.h"
 #include "learner/replay_memory.h"
 #include "msgs/episode.h"
 #include "msgs/experiment.h"
-#include "msgs/order.h"
-#include "uav/flight.h"
+#include "msgs/training_state.h"
 #include "uav/network_input.h"
 
 namespace fresco {
 
-/// What one greedy flight showed of a version: its exact score, the environment being deterministic.
-struct Evaluation {
-  int64_t version = 0;
-  int64_t updates = 0;
-  int64_t episodes = 0;  ///< training episodes committed when the result was
-  bool arrived = false;
-  AoiFigures figures;
-};
-
-/// Where the trainer hands out what follows from the episodes. All are called from within Begin and
-/// Commit.
+/// Where the trainer hands out what follows from the episodes. All are called from within Begin, Resume
+/// and Commit.
 struct TrainerOutput {
   std::function<void(const Order&)> order;
   std::function<void(NetworkKind, int32_t version, std::shared_ptr<const Vector>)> version;
   std::function<void(const Evaluation&)> evaluation;
-  /// Called after every update, for progress and interruption; may be empty.
+  /// Called after every update, for progress; may be empty.
   std::function<void()> updated;
-};
-
-struct TrainerProgress {
-  int64_t committed_orders = 0;
-  int64_t episodes = 0;
-  int64_t transitions = 0;
-  int64_t updates = 0;
-  int64_t replay_size = 0;
-  int32_t current_version = 0;
-  int32_t target_version = 0;
-  double epsilon = 0;            ///< of the newest training order
-  double learning_rate = 0;      ///< of the newest update
-  double loss = 0;               ///< exponential average over about 100 updates
-  double staleness_updates = 0;  ///< from an order's writing to its commitment, exponential average
-};
-
-/// The best version so far: one that arrived with the smallest average AoI, the earliest of equals;
-/// before any arrived, the last one.
-struct BestNetwork {
-  Evaluation evaluation;
-  std::shared_ptr<const Vector> parameters;
 };
 
 class Trainer {
@@ -65,15 +36,22 @@ class Trainer {
   /// `world` must outlive the trainer.
   Trainer(const Experiment& experiment, const World& world, TrainerOutput output);
 
-  /// Hands out version 0 of both networks and the first orders. Called once.
+  /// Hands out version 0 of both networks and the first orders. Either Begin or Resume is called, once.
   void Begin();
+
+  /// Goes on from `state`: hands out its versions and, once more, its orders. Throws Failure where the
+  /// state contradicts the experiment; the trainer is then of no use.
+  void Resume(const TrainingState& state);
+
+  /// Where the training stands, for Resume. Copies four parameter vectors and the actions.
+  TrainingState Save() const;
 
   /// Takes the episode of the order with the lowest index that has not been committed. CHECKs the
   /// index; the episode is whole and was checked.
   void Commit(const Order& order, const Episode& episode);
 
   /// Every training episode is committed and the final version is evaluated.
-  bool finished() const { return finished_; }
+  bool finished() const { return final_evaluation_written_ && orders_.empty(); }
 
   const TrainerProgress& progress() const { return progress_; }
   const Vector& current() const { return dqn_.current(); }
@@ -81,11 +59,7 @@ class Trainer {
   const std::optional<Evaluation>& last_evaluation() const { return last_evaluation_; }
 
  private:
-  /// A version of the current network and after how many updates it was made.
-  struct Version {
-    std::shared_ptr<const Vector> parameters;
-    int64_t updates = 0;
-  };
+  using VersionKey = std::pair<NetworkKind, int32_t>;
 
   void CommitTraining(const Episode& episode);
   void CommitEvaluation(const Order& order, const Episode& episode);
@@ -94,6 +68,10 @@ class Trainer {
   void UpdateOnce();
   void CopyToTarget();
   void MakeVersion();
+  void Offer(NetworkKind kind, int32_t version, const Vector& parameters);
+  void ForgetVersions();
+  void CheckState(const TrainingState& state) const;
+  void RefillReplay(const TrainingState& state);
   void WriteNextOrder();
   void WriteOrder(OrderKind kind);
   void FinishTraining();
@@ -104,20 +82,18 @@ class Trainer {
   int64_t expected_updates_;
   NetworkInput network_input_;
   ReplayMemory replay_;
+  ActionHistory history_;  // of what is in the replay memory
   MiniBatch batch_;
   Dqn dqn_;
   std::vector<float> observation_;
   std::vector<float> next_observation_;
   std::vector<float> least_values_;  // of the episode's transitions
   TrainerProgress progress_;
-  int64_t next_index_ = 0;       // of the next order to write
   int64_t training_orders_ = 0;  // written
   bool evaluation_due_ = false;
-  Version newest_;
-  std::map<int64_t, Version> evaluating_;          // by index of the evaluation order
-  std::map<int64_t, int64_t> updates_at_writing_;  // by index of the order
+  std::deque<OrderInFlight> orders_;             // by index, from progress_.committed_orders on
+  std::map<VersionKey, VersionState> versions_;  // those that orders_ name, and the newest
   bool final_evaluation_written_ = false;
-  bool finished_ = false;
   std::optional<Evaluation> last_evaluation_;
   std::optional<BestNetwork> best_;
 };

@@ -32,6 +32,9 @@ inline int MaskSize(const World& world) {
   return (world.actions() + 7) / 8;
 }
 
+/// Appends a mask of one byte an action as bits, to a whole byte.
+void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
+
 /// Transitions that fit one message for this many sensors; at least 1 for up to kMaximumSensors.
 int TransitionsPerMessage(int sensors);
 

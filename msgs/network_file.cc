@@ -39,7 +39,7 @@ Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape,
 
 }  // namespace
 
-void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network) {
+std::string SerializeNetworkFile(const StoredNetwork& network) {
   proto::NetworkFile file;
   file.set_format(kFormat);
   const MlpShape shape = network.experiment.network_shape();
@@ -55,7 +55,11 @@ void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& ne
   file.set_config_hash(network.experiment.hash());
   file.set_config_text(network.experiment.Text());
   file.set_software_version(kSoftwareVersion);
-  WriteFileAtomically(path, file.SerializeAsString());
+  return file.SerializeAsString();
+}
+
+void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network) {
+  WriteFileAtomically(path, SerializeNetworkFile(network));
 }
 
 StoredNetwork ReadNetworkFile(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "msgs/experiment.h"
 #include "nn/mlp.h"
@@ -16,6 +17,9 @@ struct StoredNetwork {
   int64_t updates = 0;
   Vector parameters;
 };
+
+/// The bytes of a network's file.
+std::string SerializeNetworkFile(const StoredNetwork& network);
 
 /// Written atomically; throws Failure where the disk does not take it.
 void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network);

@@ -103,6 +103,16 @@ void Episode::Clear() {
   next_masks.clear();
 }
 
+void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed) {
+  const size_t begin = packed.size();
+  packed.resize(begin + (mask.size() + 7) / 8, 0);
+  for (size_t action = 0; action < mask.size(); ++action) {
+    if (mask[action] != 0) {
+      packed[begin + action / 8] = static_cast<uint8_t>(packed[begin + action / 8] | (1u << (action % 8)));
+    }
+  }
+}
+
 int TransitionsPerMessage(int sensors) {
   FRESCO_CHECK(sensors >= 1 && sensors <= kMaximumSensors);
   return FittingTransitions(sensors);

@@ -63,7 +63,7 @@ Evaluated FlyPolicy(const EvaluateOptions& options) {
     evaluated.flight = evaluated.plan->flight;
     return evaluated;
   }
-  const StoredNetwork network = ReadNetworkFile(NetworkPath(options.policy));
+  const StoredNetwork network = ReadPolicy(options.policy);
   const Experiment experiment = ExperimentOfNetwork(options, network);
   Evaluated evaluated(experiment);
   evaluated.flight = FlyNetwork(evaluated.world, experiment, network);
@@ -115,7 +115,8 @@ void AddEvaluate(CLI::App& app, Command& command) {
                        "Experiment; default: that of the trained policy, or quick.textproto");
   evaluate->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
   evaluate
-      ->add_option("--policy", options->policy, "aoi, distance, optimal, a run's folder or a network file")
+      ->add_option("--policy", options->policy,
+                   "aoi, distance, optimal, a run's folder, a network file or a checkpoint")
       ->required();
   evaluate
       ->add_option("--time-limit-s", options->limits.seconds,

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "actors/flyer.h"
+#include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/stop_signal.h"
+#include "msgs/checkpoint_file.h"
 #include "tools/live_line.h"
 
 namespace fresco {
@@ -24,14 +28,27 @@ std::string Describe(const World& world, const PlannerProgress& progress, double
 
 }  // namespace
 
-std::filesystem::path NetworkPath(const std::string& policy) {
-  const std::filesystem::path path(policy);
+StoredNetwork ReadPolicy(const std::string& policy) {
+  std::filesystem::path path(policy);
   if (!std::filesystem::exists(path)) {
     throw UsageError(fmt::format(
-        "--policy: expected aoi, distance, optimal, a run's folder or a network file; \"{}\" is none of them",
+        "--policy: expected aoi, distance, optimal, a run's folder, a network file or a checkpoint; "
+        "\"{}\" is none of them",
         policy));
   }
-  return std::filesystem::is_directory(path) ? path / "best.network" : path;
+  if (std::filesystem::is_directory(path)) {
+    path /= "best.network";
+  }
+  const std::string content = ReadFile(path);
+  if (!LooksLikeCheckpoint(content)) {
+    return ReadNetworkFile(path);
+  }
+  const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
+  const std::optional<BestNetwork>& best = checkpoint.training.best;
+  if (!best) {
+    throw UsageError(fmt::format("--policy: nothing was evaluated before the checkpoint {}", path.string()));
+  }
+  return {checkpoint.experiment, best->evaluation.version, best->evaluation.updates, *best->parameters};
 }
 
 Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {

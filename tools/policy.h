@@ -1,7 +1,6 @@
 // The policies that can be flown greedily: baselines, trained networks, the exact optimum.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "msgs/network_file.h"
@@ -10,9 +9,9 @@
 
 namespace fresco {
 
-/// The network file that a path given by a person stands for: the file itself, or the best evaluated
-/// network of a run's folder. Throws UsageError where there is none.
-std::filesystem::path NetworkPath(const std::string& policy);
+/// The network that a path given by a person stands for: that of a network file, the best evaluated one
+/// of a run's folder or of a checkpoint. Throws UsageError where there is none.
+StoredNetwork ReadPolicy(const std::string& policy);
 
 /// One greedy episode of a network in `world`, with the masks of `experiment`. Throws UsageError where
 /// the network is for another number of sensors.

@@ -24,11 +24,12 @@ struct TrainOptions {
   std::optional<int> actors;
   std::optional<uint64_t> seed;
   std::string out;
+  std::string resume;
   std::string lcm_url;
   std::string format = "text";
 };
 
-Experiment LoadExperiment(const TrainOptions& options) {
+Settings SettingsFrom(const TrainOptions& options) {
   Settings settings = ParseSettings(options.settings);
   if (options.seed) {
     settings.emplace_back("schedule.seed", std::to_string(*options.seed));
@@ -39,7 +40,7 @@ Experiment LoadExperiment(const TrainOptions& options) {
   if (!options.lcm_url.empty()) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
-  return Experiment::Load(options.config.empty() ? DefaultConfigPath() : options.config, settings);
+  return settings;
 }
 
 std::filesystem::path DefaultFolder() {
@@ -64,29 +65,55 @@ int MindRun(TrainingRun& run) {
   return run.End();
 }
 
-int Train(const TrainOptions& options) {
-  const Experiment experiment = LoadExperiment(options);
-  const std::filesystem::path folder =
-      options.out.empty() ? DefaultFolder() : std::filesystem::path(options.out);
-  const bool text = options.format == "text";
-  if (text) {
-    fmt::print("training over {} with {} local actors; results go to {}\n", experiment.run().lcm_url(),
-               experiment.run().actors(), folder.string());
-    std::fflush(stdout);
-  }
-  TrainingRun run(experiment, folder);
+void Announce(const Experiment& experiment, const std::filesystem::path& folder) {
+  fmt::print("training over {} with {} local actors; results go to {}\n", experiment.run().lcm_url(),
+             experiment.run().actors(), folder.string());
+  std::fflush(stdout);
+}
+
+/// Runs it and shows what came out.
+int Train(TrainingRun& run, const std::filesystem::path& folder, bool text) {
   const int status = MindRun(run);
   const std::string summary = run.Summary();
   fmt::print("{}", text ? ResultTable(summary) : summary);
   std::fflush(stdout);
   WriteRunReport(folder);  // after the results: nothing that befalls a picture may hide them
   if (status != 0) {
-    fmt::print(stderr, "fresco: the run was interrupted; what it learned so far is in {}\n", folder.string());
+    fmt::print(
+        stderr,
+        "fresco: the run was interrupted; what it learned so far is in {}\ngo on with it: tools/fresco "
+        "train --resume {}\n",
+        folder.string(), folder.string());
   } else if (text) {
     fmt::print("\nlook at it: {}\nfly it:     tools/fresco evaluate --policy {}\n",
                (folder / "report.html").string(), folder.string());
   }
   return status == 0 ? 0 : 1;
+}
+
+int TrainAnew(const TrainOptions& options) {
+  const Experiment experiment =
+      Experiment::Load(options.config.empty() ? DefaultConfigPath() : options.config, SettingsFrom(options));
+  const std::filesystem::path folder =
+      options.out.empty() ? DefaultFolder() : std::filesystem::path(options.out);
+  const bool text = options.format == "text";
+  if (text) {
+    Announce(experiment, folder);
+  }
+  TrainingRun run(experiment, folder);
+  return Train(run, folder, text);
+}
+
+int GoOn(const TrainOptions& options) {
+  const Resumption resumption = ReadResumption(options.resume, SettingsFrom(options));
+  const bool text = options.format == "text";
+  if (text) {
+    fmt::print("going on after {} episodes; ",
+               resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
+    Announce(resumption.experiment, options.resume);
+  }
+  TrainingRun run(resumption, options.resume);
+  return Train(run, options.resume, text);
 }
 
 }  // namespace
@@ -95,15 +122,25 @@ void AddTrain(CLI::App& app, Command& command) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* train =
       app.add_subcommand("train", "Train over LCM: one learner, several actors, and a table at the end");
-  train->add_option("--config", options->config, "Experiment; default: configs/quick.textproto");
+  CLI::Option* config =
+      train->add_option("--config", options->config, "Experiment; default: configs/quick.textproto");
   train->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
   train->add_option("--actors", options->actors, "Local actor processes; 0: wait for actors that join")
       ->check(CLI::Range(0, 1024));
-  train->add_option("--seed", options->seed, "Seed of everything random");
-  train->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
+  CLI::Option* seed = train->add_option("--seed", options->seed, "Seed of everything random");
+  CLI::Option* out =
+      train->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
+  train
+      ->add_option("--resume", options->resume,
+                   "Go on with the run in this folder, from its latest checkpoint")
+      ->excludes(config)
+      ->excludes(seed)
+      ->excludes(out);
   train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
   train->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
-  train->callback([options, &command] { command = [options] { return Train(*options); }; });
+  train->callback([options, &command] {
+    command = [options] { return options->resume.empty() ? TrainAnew(*options) : GoOn(*options); };
+  });
 }
 
 }  // namespace fresco

@@ -17,41 +17,42 @@ namespace fresco {
 namespace {
 
 /// Names the run; has no influence on what it learns.
-uint64_t DrawRunId() {
+int64_t DrawRunId() {
   std::random_device device;
-  return ((uint64_t{device()} << 31) ^ device()) | 1u;
+  return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
 }
 
 }  // namespace
 
 TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder)
+    : TrainingRun(experiment, std::move(folder), RunFolder::Use::kNewRun, DrawRunId()) {}
+
+TrainingRun::TrainingRun(const Resumption& resumption, std::filesystem::path folder)
+    : TrainingRun(resumption.experiment, std::move(folder), RunFolder::Use::kResume,
+                  resumption.checkpoint ? resumption.checkpoint->run_id : DrawRunId()) {}
+
+TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder, RunFolder::Use use,
+                         int64_t run_id)
     : experiment_(experiment),
       folder_(std::move(folder)),
-      run_id_(fmt::format("{:016x}", DrawRunId())),
+      use_(use),
+      run_id_(run_id),
       bus_(OpenLcmBus(experiment.run().lcm_url())) {
   PrepareFolder();
   Listen();
 }
 
-void TrainingRun::PrepareFolder() {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) {
-    throw UsageError(fmt::format("--out: can't make the folder {}: {}", folder_.string(), error.message()));
-  }
-  if (std::filesystem::exists(folder_ / "summary.json")) {
-    throw UsageError(
-        fmt::format("--out: {} holds another run's results; name a new folder", folder_.string()));
-  }
-  WriteFileAtomically(folder_ / "config.textproto", experiment_.Text());
+/// The learner reads the configuration from the folder. It is given it in order, and is alone in it
+/// only while the learner has it.
+void TrainingRun::PrepareFolder() const {
+  const RunFolder folder(folder_, experiment_, use_);
 }
 
 void TrainingRun::Listen() {
   const Channels channels = ChannelsWithPrefix(experiment_.run().channel_prefix());
-  const int64_t run_id = ParseRunId(run_id_);
-  bus_->Subscribe(channels.learner_status, [this, run_id](std::span<const std::byte> bytes) {
+  bus_->Subscribe(channels.learner_status, [this](std::span<const std::byte> bytes) {
     learner_status_t status{};
-    if (Decode(bytes, status) && status.run_id == run_id) {
+    if (Decode(bytes, status) && status.run_id == run_id_) {
       status_ = std::move(status);
     }
   });
@@ -81,22 +82,26 @@ int TrainingRun::End() {
 
 std::string TrainingRun::Summary() const {
   if (!std::filesystem::exists(folder_ / "summary.json")) {
-    throw Error(
-        learner_->ExitStatus() == static_cast<int>(ErrorKind::kUsage) ? ErrorKind::kUsage
-                                                                      : ErrorKind::kFailure,
-        "the learner ended without results; its log ends with:" + LastLines(folder_ / "learner.log", 3));
+    throw Error(learner_->ExitStatus() == static_cast<int>(ErrorKind::kUsage) ? ErrorKind::kUsage
+                                                                              : ErrorKind::kFailure,
+                fmt::format("the learner ended without results{}; its log ends with:{}",
+                            CheckpointFolder(folder_).Latest().empty()
+                                ? ""
+                                : fmt::format(" (go on with: train --resume {})", folder_.string()),
+                            LastLines(folder_ / "learner.log", 3)));
   }
   return ReadFile(folder_ / "summary.json");
 }
 
 std::vector<std::string> TrainingRun::LearnerArguments() const {
-  return {SiblingProgram("fresco-learner").string(),
-          "--config",
-          (folder_ / "config.textproto").string(),
-          "--out",
-          folder_.string(),
-          "--run-id",
-          run_id_};
+  std::vector<std::string> arguments = {SiblingProgram("fresco-learner").string(), "--run-id", RunIdText()};
+  if (use_ == RunFolder::Use::kResume) {
+    arguments.insert(arguments.end(), {"--resume", folder_.string()});
+  } else {
+    arguments.insert(arguments.end(),
+                     {"--config", (folder_ / "config.textproto").string(), "--out", folder_.string()});
+  }
+  return arguments;
 }
 
 std::vector<std::string> TrainingRun::ActorArguments() const {
@@ -106,7 +111,11 @@ std::vector<std::string> TrainingRun::ActorArguments() const {
           "--channel-prefix",
           experiment_.run().channel_prefix(),
           "--run-id",
-          run_id_};
+          RunIdText()};
+}
+
+std::string TrainingRun::RunIdText() const {
+  return fmt::format("{:016x}", static_cast<uint64_t>(run_id_));
 }
 
 void TrainingRun::KeepActorsAlive() {

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "learner/resumption.h"
+#include "learner/run_folder.h"
 #include "msgs/experiment.h"
 #include "msgs/wire.h"
 #include "tools/child_process.h"
@@ -18,8 +20,10 @@ namespace fresco {
 
 class TrainingRun {
  public:
-  /// Opens the bus and makes the folder; throws UsageError where it holds another run's results.
+  /// A new run: opens the bus and makes the folder; throws UsageError where it holds another run.
   TrainingRun(const Experiment& experiment, std::filesystem::path folder);
+  /// Goes on with the run in `folder`, read by ReadResumption.
+  TrainingRun(const Resumption& resumption, std::filesystem::path folder);
   /// Ends every process that is still there.
   ~TrainingRun() = default;
 
@@ -47,17 +51,20 @@ class TrainingRun {
     int64_t start_at_us = 0;
   };
 
-  void PrepareFolder();
+  TrainingRun(const Experiment& experiment, std::filesystem::path folder, RunFolder::Use use, int64_t run_id);
+  void PrepareFolder() const;
   void Listen();
   std::vector<std::string> LearnerArguments() const;
   std::vector<std::string> ActorArguments() const;
+  std::string RunIdText() const;
   void KeepActorsAlive();
   void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
   void EndActors();
 
   Experiment experiment_;
   std::filesystem::path folder_;
-  std::string run_id_;
+  RunFolder::Use use_;
+  int64_t run_id_;
   std::unique_ptr<Bus> bus_;
   std::optional<learner_status_t> status_;
   std::unique_ptr<ChildProcess> learner_;

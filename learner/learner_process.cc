@@ -1,0 +1,191 @@
+#include "learner/learner_process.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/stop_signal.h"
+
+namespace fresco {
+namespace {
+
+constexpr double kSecondsPerMicrosecond = 1e-6;
+
+}  // namespace
+
+LearnerProcess::LearnerProcess(const Experiment& experiment, Bus& bus, LearnerOptions options)
+    : experiment_(experiment),
+      world_(experiment.scenario()),
+      options_(std::move(options)),
+      bus_(&bus),
+      node_(experiment_, world_, options_.run_id, bus, ChannelsWithPrefix(experiment.run().channel_prefix())),
+      trainer_(experiment_, world_, Output()),
+      folder_(options_.folder, experiment_, options_.use) {}
+
+bool LearnerProcess::Run() {
+  RefuseTakenBus();
+  begin_us_ = MonotonicMicroseconds();
+  optimum_.emplace(world_, OptimumSearch::Limits{experiment_.run().optimum_limit_s(),
+                                                 int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
+  BeginTraining();
+  std::jthread network([this](std::stop_token stop) { Serve(std::move(stop)); });
+  Train();
+  wall_s_ = WallSeconds();
+  WaitForOptimum();
+  network.request_stop();
+  network.join();
+  if (network_error_) {
+    std::rethrow_exception(network_error_);
+  }
+  WriteResults();
+  return completed_;
+}
+
+TrainerOutput LearnerProcess::Output() {
+  TrainerOutput output;
+  output.order = [this](const Order& order) { node_.WriteOrder(order); };
+  output.version = [this](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
+    node_.OfferVersion(kind, version, std::move(parameters));
+  };
+  output.evaluation = [this](const Evaluation& evaluation) {
+    folder_.AddMetrics(evaluation, trainer_.progress(), WallSeconds());
+    if (trainer_.best()->evaluation.version == evaluation.version) {
+      folder_.WriteBest(*trainer_.best());
+    }
+  };
+  output.updated = [this] {
+    constexpr int64_t kUpdatesPerReport = 16;
+    if (trainer_.progress().updates % kUpdatesPerReport == 0) {
+      Report();
+    }
+  };
+  return output;
+}
+
+/// Another run on the same channels would share actors and bandwidth: say so before starting.
+void LearnerProcess::RefuseTakenBus() {
+  constexpr int64_t kListenUs = 700'000;  // a running learner announces itself every 500 ms
+  const int64_t until_us = MonotonicMicroseconds() + kListenUs;
+  while (MonotonicMicroseconds() < until_us && node_.foreign_run() == 0 && !StopSignal::Requested()) {
+    bus_->Poll(until_us - MonotonicMicroseconds());
+  }
+  if (node_.foreign_run() != 0) {
+    throw UsageError(fmt::format(
+        "run {:016x} is already on {} with channel prefix {}; give this run a port of its own, e.g. "
+        "--lcm-url 'udpm://239.255.76.67:7668?ttl=0', or end the other one",
+        static_cast<uint64_t>(node_.foreign_run()), experiment_.run().lcm_url(),
+        experiment_.run().channel_prefix()));
+  }
+}
+
+void LearnerProcess::Serve(std::stop_token stop) {
+  try {
+    while (!stop.stop_requested()) {
+      node_.Step();
+    }
+    node_.AnnounceEnd();
+  } catch (...) {
+    network_error_ = std::current_exception();
+    StopSignal::Request();
+  }
+}
+
+void LearnerProcess::BeginTraining() {
+  if (!options_.checkpoint) {
+    trainer_.Begin();
+    return;
+  }
+  const Checkpoint& checkpoint = *options_.checkpoint;
+  folder_.RestoreMetrics(checkpoint.metrics);
+  node_.RestoreCounters(FromMap(checkpoint.counters));
+  resumptions_ = checkpoint.resumptions + 1;
+  wall_before_s_ = checkpoint.wall_s;
+  trainer_.Resume(checkpoint.training);
+  if (trainer_.best()) {
+    folder_.WriteBest(*trainer_.best());
+  }
+  spdlog::info("going on after {} episodes and {} updates", trainer_.progress().episodes,
+               trainer_.progress().updates);
+  options_.checkpoint.reset();  // its memory
+}
+
+void LearnerProcess::Train() {
+  constexpr int64_t kWaitUs = 200'000;
+  next_checkpoint_us_ = MonotonicMicroseconds();
+  while (!trainer_.finished() && !StopSignal::Requested()) {
+    WriteCheckpointIfDue();
+    if (const auto next = node_.WaitForNext(kWaitUs)) {
+      trainer_.Commit(next->order, next->episode);
+    }
+    Report();
+  }
+  if (!trainer_.finished()) {
+    spdlog::info("interrupted after {} updates", trainer_.progress().updates);
+    WriteCheckpoint();
+  }
+  Report();
+}
+
+void LearnerProcess::WriteCheckpointIfDue() {
+  const double interval_s = experiment_.run().checkpoint_interval_s();
+  const int64_t now_us = MonotonicMicroseconds();
+  if (interval_s > 0 && now_us >= next_checkpoint_us_ && !folder_.CheckpointIsBusy()) {
+    next_checkpoint_us_ = now_us + static_cast<int64_t>(interval_s / kSecondsPerMicrosecond);
+    WriteCheckpoint();
+  }
+}
+
+void LearnerProcess::WriteCheckpoint() {
+  const int64_t begin_us = MonotonicMicroseconds();
+  auto checkpoint = std::make_shared<Checkpoint>(
+      Checkpoint{experiment_, ArithmeticFingerprint(), options_.run_id, trainer_.Save()});
+  checkpoint->resumptions = resumptions_;
+  checkpoint->wall_s = WallSeconds();
+  checkpoint->metrics = folder_.metrics();
+  checkpoint->counters = ToMap(node_.counters());
+  folder_.WriteCheckpoint(std::move(checkpoint));
+  ++checkpoints_.taken;
+  checkpoints_.longest_pause_us = std::max(checkpoints_.longest_pause_us, MonotonicMicroseconds() - begin_us);
+}
+
+/// The search may outlast a short training; an interrupted run does not wait for it.
+void LearnerProcess::WaitForOptimum() {
+  constexpr int64_t kReportUs = 200'000;
+  while (!StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
+    node_.SetFinishing(
+        fmt::format("the search for the exact optimum, {:.0f} s more at most", optimum_->seconds_left()));
+    Report();
+  }
+  completed_ = trainer_.finished() && optimum_->WaitForEnd(0);
+  optimum_->Stop();
+  Report();
+}
+
+void LearnerProcess::Report() {
+  node_.SetProgress(trainer_.progress(), trainer_.last_evaluation(), trainer_.best());
+  if (const auto bound = optimum_->bound()) {
+    node_.SetOptimum(*bound);
+  }
+}
+
+double LearnerProcess::WallSeconds() const {
+  return wall_before_s_ + static_cast<double>(MonotonicMicroseconds() - begin_us_) * kSecondsPerMicrosecond;
+}
+
+void LearnerProcess::WriteResults() {
+  const std::shared_ptr<const Plan> plan = optimum_->plan();
+  if (plan != nullptr) {
+    folder_.WriteOptimum(OptimumJson(world_, *plan));
+  }
+  folder_.WriteFinal(trainer_.current(), trainer_.progress());
+  folder_.Finish();
+  folder_.WriteSummary(SummaryJson({experiment_, world_, options_.run_id, completed_, wall_s_, trainer_,
+                                    node_.counters(), plan, resumptions_, checkpoints_}));
+}
+
+}  // namespace fresco

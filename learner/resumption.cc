@@ -1,0 +1,59 @@
+#include "learner/resumption.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "learner/checkpoint_folder.h"
+
+namespace fresco {
+namespace {
+
+void RefuseCompleteRun(const std::filesystem::path& folder) {
+  const auto path = folder / "summary.json";
+  if (!std::filesystem::exists(path)) {
+    return;
+  }
+  const auto summary = nlohmann::json::parse(ReadFile(path), nullptr, false);
+  if (summary.is_object() && summary.value("completed", false)) {
+    throw UsageError(fmt::format("--resume: the run in {} is complete", folder.string()));
+  }
+}
+
+}  // namespace
+
+Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings) {
+  const auto config = folder / "config.textproto";
+  if (!std::filesystem::exists(config)) {
+    throw UsageError(
+        fmt::format("--resume: {} is not the folder of a run: it has no config.textproto; name the folder "
+                    "that the run was "
+                    "started with (--out)",
+                    folder.string()));
+  }
+  RefuseCompleteRun(folder);
+  Resumption resumption{Experiment::Load(config.string(), settings), CheckpointFolder(folder).ReadLatest()};
+  if (!resumption.checkpoint) {
+    return resumption;
+  }
+  const Checkpoint& checkpoint = *resumption.checkpoint;
+  if (checkpoint.experiment.hash() != resumption.experiment.hash()) {
+    throw UsageError(
+        fmt::format("--resume: the checkpoint in {} is of configuration {:08x}, expected {:08x} (its "
+                    "config.textproto and "
+                    "--set); only fields of run may change when a run is resumed",
+                    folder.string(), checkpoint.experiment.hash(), resumption.experiment.hash()));
+  }
+  if (checkpoint.arithmetic_fingerprint != ArithmeticFingerprint()) {
+    throw UsageError(
+        fmt::format("--resume: the checkpoint in {} was made with arithmetic {:08x}, this program's is "
+                    "{:08x}: the weights "
+                    "would differ in their bits; resume with the same build on the same kind of processor",
+                    folder.string(), checkpoint.arithmetic_fingerprint, ArithmeticFingerprint()));
+  }
+  return resumption;
+}
+
+}  // namespace fresco

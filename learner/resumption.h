@@ -1,0 +1,23 @@
+// What a run that did not end goes on from: its folder's configuration and latest whole checkpoint.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "msgs/checkpoint_file.h"
+#include "msgs/experiment.h"
+
+namespace fresco {
+
+struct Resumption {
+  Experiment experiment;
+  std::optional<Checkpoint> checkpoint;  ///< none: the run goes on from its beginning
+};
+
+/// Reads the folder of an incomplete run. The settings may change `run` only. Throws UsageError where
+/// the folder holds no run or a complete one, none of its checkpoints is whole, or the checkpoint belongs
+/// to another configuration or another arithmetic.
+Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings);
+
+}  // namespace fresco
