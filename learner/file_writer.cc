@@ -45,11 +45,9 @@ bool FileWriter::IsBusy(const std::string& name) const {
 
 void FileWriter::Finish() {
   std::unique_lock lock(mutex_);
-  const int64_t enough = attempts_ + static_cast<int64_t>(waiting_.size()) + (writing_.empty() ? 0 : 1);
-  hurry_ = true;
+  hurry_until_ = attempts_ + static_cast<int64_t>(waiting_.size()) + (writing_.empty() ? 0 : 1);
   changed_.notify_all();
-  changed_.wait(lock, [&] { return writing_.empty() && (attempts_ >= enough || waiting_.empty()); });
-  hurry_ = false;
+  changed_.wait(lock, [&] { return writing_.empty() && (attempts_ >= hurry_until_ || waiting_.empty()); });
   if (!waiting_.empty()) {
     throw Failure(waiting_.front().problem);
   }
@@ -83,7 +81,7 @@ void FileWriter::Work() {
 /// ago. None where the writer ends.
 std::deque<FileWriter::Job>::iterator FileWriter::NextJob(std::unique_lock<std::mutex>& lock) {
   changed_.wait_for(lock, std::chrono::microseconds(try_again_us_),
-                    [&] { return ending_ || hurry_ || HasFreshJob(); });
+                    [&] { return ending_ || attempts_ < hurry_until_ || HasFreshJob(); });
   const auto fresh =
       std::find_if(waiting_.begin(), waiting_.end(), [](const Job& job) { return job.problem.empty(); });
   return fresh != waiting_.end() || ending_ ? fresh : waiting_.begin();

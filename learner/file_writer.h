@@ -61,7 +61,7 @@ class FileWriter {
   std::deque<Job> waiting_;
   std::string writing_;  // name of the file that is being written; empty: none
   int64_t attempts_ = 0;
-  bool hurry_ = false;  // somebody waits for the end: no pause
+  int64_t hurry_until_ = 0;  // no pause before so many attempts: somebody waits for them
   bool ending_ = false;
   std::thread thread_;
 };

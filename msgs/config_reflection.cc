@@ -5,7 +5,9 @@
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/text_format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <memory>
 
 #include "core/error.h"
 #include "msgs/proto/options.pb.h"
@@ -105,10 +107,16 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
       fmt::format("--set {}: there is no field \"{}\"; {} has: {}", path, name, descriptor.name(), known));
 }
 
+/// Whether nothing but `field` is set.
+bool HasNoOther(const Message& message, const FieldDescriptor& field) {
+  std::vector<const FieldDescriptor*> fields;
+  message.GetReflection()->ListFields(message, &fields);
+  return std::all_of(fields.begin(), fields.end(), [&](const FieldDescriptor* set) { return set == &field; });
+}
+
 void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& path,
              const std::string& value) {
   const bool quoted = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !value.starts_with('"');
-  message.GetReflection()->ClearField(&message, &field);
   const std::string text = field.is_repeated() ? "[" + value + "]" : quoted ? "\"" + value + "\"" : value;
   google::protobuf::TextFormat::Parser parser;
   struct Silent : google::protobuf::io::ErrorCollector {
@@ -116,10 +124,14 @@ void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& 
     std::string text;
   } errors;
   parser.RecordErrorsTo(&errors);
-  if (IsMessage(field) || !parser.MergeFromString(field.name() + ": " + text, &message)) {
+  const std::unique_ptr<Message> parsed(message.New());
+  if (IsMessage(field) || !parser.ParseFromString(field.name() + ": " + text, parsed.get()) ||
+      !HasNoOther(*parsed, field)) {
     throw UsageError(fmt::format("--set {}: \"{}\" is not a value of this field ({}){}", path, value,
                                  field.cpp_type_name(), errors.text.empty() ? "" : ": " + errors.text));
   }
+  message.GetReflection()->ClearField(&message, &field);
+  message.MergeFrom(*parsed);
 }
 
 void SetFieldBelow(Message& message, const std::string& rest, const std::string& path,
@@ -131,6 +143,10 @@ void SetFieldBelow(Message& message, const std::string& rest, const std::string&
     ThrowUnknownField(*message.GetDescriptor(), part.name, path);
   }
   if (dot == std::string::npos) {
+    if (part.index >= 0) {
+      throw UsageError(
+          fmt::format("--set {}: an index may not end a path; set the whole field \"{}\"", path, part.name));
+    }
     return SetLeaf(message, *field, path, value);
   }
   const Reflection& reflection = *message.GetReflection();

@@ -51,8 +51,15 @@ def breaches():
                 yield f"{room}/CMakeLists.txt: {room} may not link fresco_{linked}"
 
 
+def forgotten_tests():
+    """Tests that no program is built from pass for ever."""
+    for path in sorted((ROOT / "tests").rglob("*_test.cc")):
+        if path.name not in (path.parent / "CMakeLists.txt").read_text():
+            yield f"{path.relative_to(ROOT)}: not in the CMakeLists.txt beside it"
+
+
 def main():
-    found = list(breaches())
+    found = list(breaches()) + list(forgotten_tests())
     for breach in found:
         print(breach)
     files = sum(1 for room in ALLOWED for _ in (ROOT / room).rglob("*.cc"))

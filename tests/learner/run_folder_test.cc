@@ -71,6 +71,7 @@ TEST_F(RunFolderTest, HasTheFilesOfARunAndNothingElse) {
   EXPECT_EQ(Names(), std::set<std::string>{"config.textproto"});
   folder.AddMetrics(EvaluationOf(1, true), {}, 1);
   folder.WriteBest({EvaluationOf(1, true), std::make_shared<const Vector>(Parameters(1))});
+  folder.Finish();
   folder.WriteFinal(Parameters(1), {});
   folder.WriteOptimum("{}");
   folder.WriteSummary("{}");
@@ -90,9 +91,11 @@ TEST_F(RunFolderTest, AddsALineOfMetricsWithEveryEvaluation) {
       "sum_aoi\n";
   const std::string first = "1.500,40,780,400,4,0.16,0.00125,0.0625,1,1234,8.500000,17.250000\n";
   folder.AddMetrics(EvaluationOf(4, true), progress, 1.5);
+  folder.Finish();
   EXPECT_EQ(Content("metrics.csv"), header + first);
   progress.transitions = 1560;
   folder.AddMetrics(EvaluationOf(8, false), progress, 61.0625);
+  folder.Finish();
   EXPECT_EQ(Content("metrics.csv"),
             header + first + "61.062,80,1560,800,8,0.16,0.00125,0.0625,0,1234,8.500000,17.250000\n");
 }
@@ -101,6 +104,7 @@ TEST_F(RunFolderTest, DeliversTheBestNetworkAsANetworkFile) {
   RunFolder folder(directory_, experiment_);
   folder.WriteBest({EvaluationOf(3, true), std::make_shared<const Vector>(Parameters(3))});
   folder.WriteBest({EvaluationOf(9, true), std::make_shared<const Vector>(Parameters(9))});
+  folder.Finish();
   const StoredNetwork network = ReadNetworkFile(directory_ / "best.network");
   EXPECT_EQ(network.version, 9);
   EXPECT_EQ(network.updates, 900);

@@ -213,10 +213,10 @@ TEST(TrainerDeathTest, ChecksTheIndexOfWhatItCommits) {
   const Order first = run.orders[0];
   const Order second = run.orders[1];
   const Episode episode = run.Fly(first);
-  EXPECT_DEATH(run.trainer.Commit(second, run.Fly(second)), "committed_orders");
+  EXPECT_DEATH(run.trainer.Commit(second, run.Fly(second)), "orders_.front");
   EXPECT_DEATH(run.trainer.Commit(first, run.Fly(second)), "order_index");
   run.trainer.Commit(first, episode);
-  EXPECT_DEATH(run.trainer.Commit(first, episode), "committed_orders");
+  EXPECT_DEATH(run.trainer.Commit(first, episode), "orders_.front");
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST(RunId, IsUpToSixteenHexadecimalDigits) {
 
 TEST(ChannelNames, HaveThePrefix) {
   EXPECT_EQ(ChannelsWithPrefix("X").learner_status, "X_LEARNER_STATUS");
-  for (const std::string prefix :
+  for (const std::string& prefix :
        {std::string(), std::string(41, 'A'), std::string("A.*"), std::string("A B")}) {
     EXPECT_THAT(UsageErrorOf([&] { ChannelsWithPrefix(prefix); }),
                 HasSubstr("run.channel_prefix: \"" + prefix));
