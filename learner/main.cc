@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "core/folder_lock.h"
 #include "core/stop_signal.h"
 #include "core/version.h"
 #include "learner/learner_process.h"
@@ -46,10 +47,13 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
   if (arguments.out.empty()) {
     throw UsageError("--out: name the run's folder (or --resume one)");
   }
+  RunFolder::Make(arguments.out);
+  const FolderLock lock(arguments.out);
   return Run(Experiment::Load(arguments.config, settings), {arguments.out, RunIdFrom(arguments)});
 }
 
 int Resume(const Arguments& arguments, const Settings& settings) {
+  const FolderLock lock(arguments.resume, kResumePatienceUs);
   Resumption resumption = ReadResumption(arguments.resume, settings);
   const int64_t run_id = resumption.checkpoint ? resumption.checkpoint->run_id : RunIdFrom(arguments);
   return Run(resumption.experiment,

@@ -15,9 +15,12 @@ struct Resumption {
   std::optional<Checkpoint> checkpoint;  ///< none: the run goes on from its beginning
 };
 
-/// Reads the folder of an incomplete run. The settings may change `run` only. Throws UsageError where
-/// the folder holds no run or a complete one, none of its checkpoints is whole, or the checkpoint belongs
-/// to another configuration or another arithmetic.
+/// For the lock of a folder that is to be resumed: a learner that was told to end may still be writing.
+inline constexpr int64_t kResumePatienceUs = 5'000'000;
+
+/// Reads the folder of an incomplete run; the caller holds its lock. The settings may change `run` only.
+/// Throws UsageError where the folder holds no run or a complete one, none of its checkpoints is whole, or
+/// the checkpoint belongs to another configuration or another arithmetic.
 Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings);
 
 }  // namespace fresco

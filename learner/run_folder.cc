@@ -9,29 +9,23 @@
 #include "msgs/network_file.h"
 
 namespace fresco {
-namespace {
 
-constexpr int64_t kResumePatienceUs = 5'000'000;  // a learner that was told to end may still be writing
-
-std::filesystem::path Made(std::filesystem::path directory) {
+void RunFolder::Make(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) {
     throw UsageError(fmt::format("--out: can't make the folder {}: {}", directory.string(), error.message()));
   }
-  return directory;
 }
 
-}  // namespace
-
 RunFolder::RunFolder(std::filesystem::path directory, const Experiment& experiment, Use use)
-    : directory_(Made(std::move(directory))),
-      lock_(directory_, use == Use::kResume ? kResumePatienceUs : 0),
+    : directory_(std::move(directory)),
       experiment_(experiment),
       checkpoints_(directory_),
       metrics_(
           "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,total_aoi,"
           "average_aoi,sum_aoi\n") {
+  Make(directory_);
   if (use == Use::kNewRun) {
     RefuseResults();
   } else {

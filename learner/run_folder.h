@@ -1,13 +1,12 @@
 // A run's folder: config.textproto, metrics.csv, best.network, final.network, optimum.json, summary.json
 // and checkpoints/. Every file is whole at any time. What changes during the training is written by a
-// thread of its own; a full disk does not stop the training. Used by one thread, and by one process at a
-// time.
+// thread of its own; a full disk does not stop the training. Used by one thread; one process at a time
+// works in a folder, which is for the callers to see to (core/folder_lock.h).
 #pragma once
 
 #include <filesystem>
 #include <string>
 
-#include "core/folder_lock.h"
 #include "learner/checkpoint_folder.h"
 #include "learner/file_writer.h"
 #include "msgs/experiment.h"
@@ -19,9 +18,12 @@ class RunFolder {
  public:
   enum class Use { kNewRun, kResume };
 
-  /// Makes the folder and writes the configuration. Throws UsageError where the folder can't be made,
-  /// another process works in it, or (kNewRun) it holds another run's results. kResume: takes over what
-  /// an incomplete run has left, and clears its half-written files away.
+  /// Makes a folder, and those above it. Throws UsageError where it can't.
+  static void Make(const std::filesystem::path& directory);
+
+  /// Makes the folder and writes the configuration. Throws UsageError where the folder can't be made or
+  /// (kNewRun) holds another run. kResume: takes over what an incomplete run has left, and clears its
+  /// half-written files away.
   RunFolder(std::filesystem::path directory, const Experiment& experiment, Use use = Use::kNewRun);
 
   const std::filesystem::path& directory() const { return directory_; }
@@ -54,7 +56,6 @@ class RunFolder {
   void ClearLeftovers() const;
 
   std::filesystem::path directory_;
-  FolderLock lock_;
   Experiment experiment_;
   CheckpointFolder checkpoints_;
   std::string metrics_;

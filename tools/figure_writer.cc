@@ -185,8 +185,7 @@ class FigureWriter {
     LinePlot plot{figure.title, "energy budget (J)", "average AoI (slots)"};
     for (const Policy& policy : kPolicies) {
       const bool trained = policy.role == CurveRole::kDqn;
-      plot.curves.push_back(
-          {policy.name, policy.role, trained ? CurveShape::kMarkers : CurveShape::kSteps});
+      plot.curves.push_back({policy.name, policy.role, trained ? CurveShape::kMarkers : CurveShape::kSteps});
     }
     std::vector<std::vector<CsvCell>> rows;
     for (const double budget_j : BudgetsOf(figure.figure, groups)) {

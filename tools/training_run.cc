@@ -9,6 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/folder_lock.h"
 #include "msgs/channels.h"
 #include "msgs/settings.h"
 #include "tools/installation.h"
@@ -42,9 +43,10 @@ TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path fol
   Listen();
 }
 
-/// The learner reads the configuration from the folder. It is given it in order, and is alone in it
-/// only while the learner has it.
+/// In order for the learner, which reads the configuration there.
 void TrainingRun::PrepareFolder() const {
+  RunFolder::Make(folder_);
+  const FolderLock lock(folder_, use_ == RunFolder::Use::kResume ? kResumePatienceUs : 0);
   const RunFolder folder(folder_, experiment_, use_);
 }
 

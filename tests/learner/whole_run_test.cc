@@ -20,6 +20,7 @@ struct Disturbance {
   int actors = 1;
   LossOptions loss;
   bool one_vanishes = false;
+  int learner_kills = 0;  ///< the learner ends without a word and another one goes on from its checkpoint
 };
 
 class WholeRun : public ::testing::Test {
@@ -29,35 +30,56 @@ class WholeRun : public ::testing::Test {
     spdlog::set_level(spdlog::level::err);
   }
 
+  /// A learner as far as it lives in its process's memory.
+  struct Learner {
+    Learner(WholeRun& test, Bus& bus)
+        : node(test.experiment_, test.world_, kRunId, bus, ChannelsWithPrefix("TEST")),
+          trainer(test.experiment_, test.world_, test.OutputTo(node)) {}
+    LearnerNode node;
+    Trainer trainer;
+  };
+
   /// A run over a memq bus, everything stepped by this thread.
   RunResult Run(const Disturbance& disturbance) {
     const auto memory = OpenLcmBus("memq://");
     const auto bus = MakeLossyBus(*memory, disturbance.loss);
-    const Channels channels = ChannelsWithPrefix("TEST");
-    LearnerNode node(experiment_, world_, kRunId, *bus, channels);
     std::vector<std::unique_ptr<Actor>> actors;
     for (int i = 0; i < disturbance.actors; ++i) {
       ActorOptions options;
       options.actor_id = 100 + i;
       options.capacity = 3;
-      actors.push_back(std::make_unique<Actor>(*bus, channels, options));
+      actors.push_back(std::make_unique<Actor>(*bus, ChannelsWithPrefix("TEST"), options));
     }
-    Trainer trainer(experiment_, world_, OutputTo(node));
-    trainer.Begin();
+    // Killed learners stay subscribed to the bus that all share, but nobody listens to them any more.
+    std::vector<std::unique_ptr<Learner>> learners;
+    learners.push_back(std::make_unique<Learner>(*this, *bus));
+    learners.back()->trainer.Begin();
+    TrainingState checkpoint = learners.back()->trainer.Save();
     const int64_t deadline_us = MonotonicMicroseconds() + 60'000'000;
-    while (!trainer.finished() && MonotonicMicroseconds() < deadline_us) {
-      node.Step();
-      const size_t stepping = disturbance.one_vanishes && trainer.progress().episodes > 20 ? 1 : 0;
+    while (!learners.back()->trainer.finished() && MonotonicMicroseconds() < deadline_us) {
+      Learner& learner = *learners.back();
+      learner.node.Step();
+      const size_t stepping = disturbance.one_vanishes && learner.trainer.progress().episodes > 20 ? 1 : 0;
       for (size_t i = stepping; i < actors.size(); ++i) {
         actors[i]->Step(MonotonicMicroseconds());
       }
-      while (const auto next = node.WaitForNext(0)) {
-        trainer.Commit(next->order, next->episode);
+      while (const auto next = learner.node.WaitForNext(0)) {
+        learner.trainer.Commit(next->order, next->episode);
+        if (learner.trainer.progress().committed_orders % kOrdersPerCheckpoint == 0) {
+          checkpoint = learner.trainer.Save();
+        }
+      }
+      const auto kills = static_cast<int>(learners.size()) - 1;
+      if (kills < disturbance.learner_kills && learner.trainer.progress().episodes > 15 * (kills + 1)) {
+        learners.push_back(std::make_unique<Learner>(*this, *bus));
+        learners.back()->trainer.Resume(checkpoint);
       }
     }
-    EXPECT_TRUE(trainer.finished()) << node.WaitingFor();
-    counters_ = node.counters();
-    return {trainer.current(), trainer.progress().updates, 0, trainer.best()->evaluation.figures.average_aoi};
+    const Learner& learner = *learners.back();
+    EXPECT_TRUE(learner.trainer.finished()) << learner.node.WaitingFor();
+    counters_ = learner.node.counters();
+    return {learner.trainer.current(), learner.trainer.progress().updates, 0,
+            learner.trainer.best()->evaluation.figures.average_aoi};
   }
 
   TrainerOutput OutputTo(LearnerNode& node) {
@@ -69,6 +91,8 @@ class WholeRun : public ::testing::Test {
     output.evaluation = [](const Evaluation&) {};
     return output;
   }
+
+  static constexpr int64_t kOrdersPerCheckpoint = 11;
 
   void ExpectTheSame(const RunResult& result) {
     EXPECT_EQ(result.updates, expected_.updates);
@@ -97,22 +121,27 @@ TEST_F(WholeRun, FollowsFromTheSeed) {
 
 TEST_F(WholeRun, GivesTheSameWeightsWithAnyNumberOfActors) {
   for (const int actors : {1, 2, 5}) {
-    ExpectTheSame(Run({actors, {}, false}));
+    ExpectTheSame(Run({actors, {}, false, 0}));
     EXPECT_EQ(counters_.rejected, 0);
   }
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsThroughLossRepetitionReorderingAndCorruption) {
   LossOptions loss{0.05, 0.05, 0.1, 0, 3};
-  ExpectTheSame(Run({2, loss, false}));
+  ExpectTheSame(Run({2, loss, false, 0}));
   EXPECT_GT(counters_.lost + counters_.duplicate, 0);
   loss.corrupt = 0.05;
-  ExpectTheSame(Run({3, loss, false}));
+  ExpectTheSame(Run({3, loss, false, 0}));
   EXPECT_GT(counters_.rejected, 0);
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsWhenAnActorVanishes) {
-  ExpectTheSame(Run({3, {}, true}));
+  ExpectTheSame(Run({3, {}, true, 0}));
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsWhenTheLearnerIsKilledAndResumed) {
+  ExpectTheSame(Run({2, {}, false, 3}));
+  ExpectTheSame(Run({3, {0.05, 0.05, 0.1, 0.02, 6}, true, 3}));
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsForPlainDqnWithoutMasksAndTheSchedulesOfThePaper) {
@@ -123,7 +152,7 @@ TEST_F(WholeRun, GivesTheSameWeightsForPlainDqnWithoutMasksAndTheSchedulesOfTheP
                                    {"schedule.linear.initial", "0.9"},
                                    {"agent.exponential.initial", "0.002"}});
   expected_ = RunInOneLoop(experiment_);
-  ExpectTheSame(Run({2, {0.05, 0.02, 0.1, 0.02, 4}, false}));
+  ExpectTheSame(Run({2, {0.05, 0.02, 0.1, 0.02, 4}, false, 0}));
 }
 
 }  // namespace
