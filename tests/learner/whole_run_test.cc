@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "actors/actor.h"
+#include "bus/authenticated_bus.h"
 #include "bus/lossy_bus.h"
 #include "core/clock.h"
 #include "learner/learner_node.h"
+#include "tests/learner/forger.h"
 #include "tests/learner/literal_run.h"
 
 namespace fresco {
@@ -20,7 +22,15 @@ struct Disturbance {
   int actors = 1;
   LossOptions loss;
   bool one_vanishes = false;
+  bool authenticated = false;
+  bool forged = false;
 };
+
+/// Where an authenticated run's messages pass; a key of its own.
+std::unique_ptr<Bus> Authenticated(Bus& inner) {
+  const std::vector<std::byte> secret(32, std::byte{1});
+  return MakeAuthenticatedBus(inner, AuthenticationKey(secret));
+}
 
 class WholeRun : public ::testing::Test {
  protected:
@@ -32,15 +42,21 @@ class WholeRun : public ::testing::Test {
   /// A run over a memq bus, everything stepped by this thread.
   RunResult Run(const Disturbance& disturbance) {
     const auto memory = OpenLcmBus("memq://");
-    const auto bus = MakeLossyBus(*memory, disturbance.loss);
+    const auto lossy = MakeLossyBus(*memory, disturbance.loss);
+    const auto keyed = Authenticated(*lossy);
+    Bus& bus = disturbance.authenticated ? *keyed : *lossy;
     const Channels channels = ChannelsWithPrefix("TEST");
-    LearnerNode node(experiment_, world_, kRunId, *bus, channels);
+    std::optional<Forger> forger;
+    if (disturbance.forged) {
+      forger.emplace(experiment_, world_, *memory, channels);
+    }
+    LearnerNode node(experiment_, world_, kRunId, bus, channels);
     std::vector<std::unique_ptr<Actor>> actors;
     for (int i = 0; i < disturbance.actors; ++i) {
       ActorOptions options;
       options.actor_id = 100 + i;
       options.capacity = 3;
-      actors.push_back(std::make_unique<Actor>(*bus, channels, options));
+      actors.push_back(std::make_unique<Actor>(bus, channels, options));
     }
     Trainer trainer(experiment_, world_, OutputTo(node));
     trainer.Begin();
@@ -109,6 +125,39 @@ TEST_F(WholeRun, GivesTheSameWeightsThroughLossRepetitionReorderingAndCorruption
   loss.corrupt = 0.05;
   ExpectTheSame(Run({3, loss, false}));
   EXPECT_GT(counters_.rejected, 0);
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsAmongForgersWhereMessagesAreAuthenticated) {
+  const RunResult forged = Run({.actors = 2, .loss = {}, .forged = true});
+  EXPECT_EQ(counters_.rejected, 0);  // nobody noticed
+  EXPECT_FALSE(forged.weights == expected_.weights);
+  ExpectTheSame(Run({.actors = 2, .loss = {}, .authenticated = true, .forged = true}));
+  EXPECT_GT(counters_.rejected_unauthenticated, 60);  // an episode each at least
+  EXPECT_EQ(counters_.rejected, counters_.rejected_unauthenticated);
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsWhereAuthenticatedMessagesAreLostRepeatedReorderedAndCorrupted) {
+  ExpectTheSame(
+      Run({.actors = 2, .loss = {0.05, 0.05, 0.1, 0.05, 3}, .authenticated = true, .forged = true}));
+  EXPECT_GT(counters_.rejected_unauthenticated, 60);
+}
+
+TEST_F(WholeRun, SaysThatItWaitsAmongProgramsWithAnotherKey) {
+  const auto memory = OpenLcmBus("memq://");
+  const auto keyed = Authenticated(*memory);
+  const Channels channels = ChannelsWithPrefix("TEST");
+  LearnerNode node(experiment_, world_, kRunId, *keyed, channels);
+  node.WriteOrder({});
+  EXPECT_FALSE(node.WaitForNext(0).has_value());
+  EXPECT_EQ(node.WaitingFor(), "an actor to join");
+  memory->Publish(channels.actor_status, std::vector<std::byte>(100));
+  while (keyed->Poll(0) > 0) {
+  }
+  EXPECT_EQ(
+      node.WaitingFor(),
+      "an actor to join (1 messages dropped: made with another key than that of --key-file here, or with "
+      "none)");
+  EXPECT_EQ(node.counters().rejected_unauthenticated, 1);
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsWhenAnActorVanishes) {
