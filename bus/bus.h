@@ -17,13 +17,13 @@ namespace fresco {
 /// The message's bytes are valid during the call only.
 using BusHandler = std::function<void(std::span<const std::byte> message)>;
 
-/// Messages of one channel that may wait for Poll; LCM drops what comes beyond. At 40,000 a second, the most
-/// that the pacing of networks allows, enough for a twentieth of a second in which nobody polls; what is lost
-/// is sent again. It bounds the memory that a flood can take from a program whose polling thread
-/// is busy: LCM counts messages, not bytes, and a datagram that is none of ours has up to 64 KiB, so 128 MiB
-/// a channel (Fresco's own: 3 MB). LCM also joins fragments to messages of up to 256 MiB; those are bounded
-/// only by the sender's rate and the time in which nobody polls, so no thread that polls may be busy for
-/// long.
+/// Messages of one channel that may wait for Poll; LCM drops what comes beyond (memq:// keeps all). At 40,000
+/// a second, the most that the pacing of networks allows, enough for a twentieth of a second in which nobody
+/// polls; what is lost is sent again. It bounds the memory that a flood can take from a program whose polling
+/// thread is busy: LCM counts messages, not bytes, and a datagram that is none of ours has up to 64 KiB, so
+/// 128 MiB a channel (Fresco's own: 3 MiB; both measured). LCM also joins fragments to messages of up to
+/// 256 MiB; those are bounded only by the sender's rate and the time in which nobody polls, so no thread that
+/// polls may be busy for long.
 inline constexpr int kDefaultQueueCapacity = 2048;
 
 class Bus {
