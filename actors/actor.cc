@@ -29,7 +29,8 @@ Actor::Actor(Bus& bus, const Channels& channels, ActorOptions options)
     : bus_(&bus),
       channels_(channels),
       options_(std::move(options)),
-      arithmetic_fingerprint_(ArithmeticFingerprint()) {
+      arithmetic_fingerprint_(ArithmeticFingerprint()),
+      key_mismatch_(bus) {
   Subscribe<run_t>(channels_.run, [this](const run_t& message) { HandleRun(message); });
   Subscribe<orders_t>(channels_.orders, [this](const orders_t& message) { HandleOrders(message); });
   Subscribe<weights_t>(channels_.weights_current,
@@ -44,6 +45,7 @@ void Actor::Subscribe(const std::string& channel, Handler handler) {
   bus_->Subscribe(channel, [this, handler, message](std::span<const std::byte> bytes) {
     if (!Decode(bytes, *message)) {
       ++totals_.rejected_messages;
+      key_mismatch_.Note(bytes);
       return;
     }
     now_us_ = MonotonicMicroseconds();
@@ -232,6 +234,9 @@ void Actor::SendStatusIfDue(int64_t now_us) {
   next_request_us_ = now_us + kRequestPeriodUs;
   if (now_us >= next_status_us_) {
     next_status_us_ = now_us + kStatusPeriodUs;
+    if (const std::string news = key_mismatch_.News(); !news.empty()) {
+      spdlog::warn("{}", news);
+    }
   }
 }
 
@@ -252,7 +257,7 @@ actor_status_t Actor::Status(int64_t now_us) {
   status.episodes = totals_.episodes;
   status.transitions = totals_.transitions;
   status.resent_episodes = totals_.resent_episodes;
-  status.rejected_messages = totals_.rejected_messages;
+  status.rejected_messages = totals().rejected_messages;
   status.transitions_per_s = transitions_per_s_;
   if (session_ != nullptr) {
     status.capacity = options_.capacity.value_or(session_->experiment.run().environments_per_actor());
@@ -269,7 +274,13 @@ std::string Actor::Description() const {
   return fmt::format(
       "actor {:016x}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} messages rejected",
       static_cast<uint64_t>(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
-      totals_.resent_episodes, totals_.rejected_messages);
+      totals_.resent_episodes, totals().rejected_messages);
+}
+
+ActorTotals Actor::totals() const {
+  ActorTotals totals = totals_;
+  totals.rejected_messages += bus_->refused_messages();
+  return totals;
 }
 
 }  // namespace fresco

@@ -15,6 +15,7 @@
 #include "actors/run_announcements.h"
 #include "bus/bus.h"
 #include "msgs/channels.h"
+#include "msgs/key_mismatch.h"
 
 namespace fresco {
 
@@ -31,7 +32,7 @@ struct ActorTotals {
   int64_t episodes = 0;
   int64_t transitions = 0;
   int64_t resent_episodes = 0;
-  int64_t rejected_messages = 0;  ///< malformed, of another run or configuration, corrupt
+  int64_t rejected_messages = 0;  ///< malformed, of another run, configuration or key, corrupt
 };
 
 class Actor {
@@ -44,7 +45,7 @@ class Actor {
   /// at once; otherwise the caller may wait for the bus.
   bool Step(int64_t now_us);
 
-  const ActorTotals& totals() const { return totals_; }
+  ActorTotals totals() const;
   bool has_run() const { return session_ != nullptr; }
   /// Whether the run that it last served has ended.
   bool run_over() const { return run_over_; }
@@ -85,7 +86,8 @@ class Actor {
   Channels channels_;
   ActorOptions options_;
   uint32_t arithmetic_fingerprint_;
-  ActorTotals totals_;
+  ActorTotals totals_;  // without what the bus refused
+  KeyMismatch key_mismatch_;
   RunAnnouncements announcements_;
   std::unique_ptr<Session> session_;
   bool run_over_ = false;

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "actors/actor.h"
+#include "bus/authenticated_bus.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/stop_signal.h"
@@ -23,6 +24,7 @@ struct Arguments {
   std::string channel_prefix = kDefaultChannelPrefix;
   std::string run_id;
   int environments = 0;
+  KeyFile key_file;
   bool once = false;
 };
 
@@ -54,7 +56,7 @@ ActorOptions OptionsFrom(const Arguments& arguments) {
 
 void Serve(const Arguments& arguments) {
   constexpr int64_t kWaitUs = 2'000;
-  const std::unique_ptr<Bus> bus = OpenLcmBus(arguments.lcm_url);
+  const std::unique_ptr<Bus> bus = OpenBus(arguments.lcm_url, arguments.key_file);
   Actor actor(*bus, ChannelsWithPrefix(arguments.channel_prefix), OptionsFrom(arguments));
   spdlog::info("waiting for a run on {}", arguments.lcm_url);
   while (!StopSignal::Requested() && !(arguments.once && actor.run_over())) {
@@ -73,6 +75,9 @@ int Main(int argc, char** argv) {
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->capture_default_str();
   app.add_option("--run-id", arguments.run_id, "Serve this run only (16 hexadecimal digits)");
+  app.add_option_function<std::string>(
+      "--key-file", [&](const std::string& file) { arguments.key_file = file; },
+      "The run's key: take only messages that are authenticated with it");
   app.add_option("--environments", arguments.environments, "Episodes flown side by side; 0: as the run says")
       ->check(CLI::Range(0, 4096));
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");

@@ -17,6 +17,15 @@ namespace fresco {
 /// The message's bytes are valid during the call only.
 using BusHandler = std::function<void(std::span<const std::byte> message)>;
 
+/// Messages of one channel that may wait for Poll; LCM drops what comes beyond (memq:// keeps all). At 40,000
+/// a second, the most that the pacing of networks allows, enough for a twentieth of a second in which nobody
+/// polls; what is lost is sent again. It bounds the memory that a flood can take from a program whose polling
+/// thread is busy: LCM counts messages, not bytes, and a datagram that is none of ours has up to 64 KiB, so
+/// 128 MiB a channel (Fresco's own: 3 MiB; both measured). LCM also joins fragments to messages of up to
+/// 256 MiB; those are bounded only by the sender's rate and the time in which nobody polls, so no thread that
+/// polls may be busy for long.
+inline constexpr int kDefaultQueueCapacity = 2048;
+
 class Bus {
  public:
   virtual ~Bus() = default;
@@ -28,12 +37,16 @@ class Bus {
   /// Calls `handler` for every message of exactly this channel (the name is escaped: LCM reads
   /// channels as regular expressions). Throws UsageError where LCM refuses (a firewall that drops
   /// multicast), saying what to do. Keeps up to `queue_capacity` messages that wait for Poll.
-  virtual void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity = 20000) = 0;
+  virtual void Subscribe(const std::string& channel, BusHandler handler,
+                         int queue_capacity = kDefaultQueueCapacity) = 0;
 
   /// Handles what has arrived, or waits up to `timeout_us` microseconds for the first message; never
   /// handles more than `maximum_messages`. Returns the number of messages handled. Returns early,
   /// with 0, where a signal arrives.
   virtual int Poll(int64_t timeout_us, int maximum_messages = 1000) = 0;
+
+  /// Messages that the bus refused before any handler saw them; see bus/authenticated_bus.h. From any thread.
+  virtual int64_t refused_messages() const { return 0; }
 };
 
 /// The URL used where none is given: this machine only (ttl 0), with a receive buffer of 4 MB.

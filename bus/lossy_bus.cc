@@ -49,6 +49,8 @@ class LossyBus : public Bus {
     return inner_->Poll(timeout_us, maximum_messages);
   }
 
+  int64_t refused_messages() const override { return inner_->refused_messages(); }
+
  private:
   static constexpr uint32_t kLongestDelay = 16;
 

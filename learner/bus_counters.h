@@ -8,15 +8,16 @@
 namespace fresco {
 
 struct BusCounters {
-  int64_t received = 0;               ///< messages of this run
-  int64_t lost = 0;                   ///< orders whose result had to be asked for again
-  int64_t duplicate = 0;              ///< transitions messages that brought nothing new
-  int64_t rejected = 0;               ///< sum of the causes below
-  int64_t rejected_malformed = 0;     ///< does not decode, or values out of range
-  int64_t rejected_foreign = 0;       ///< another run, another configuration, an order never written
-  int64_t rejected_inconsistent = 0;  ///< an episode that does not follow from its actions
-  int64_t rejected_arithmetic = 0;    ///< statuses of actors whose arithmetic differs
-  int64_t reordered_episodes = 0;     ///< complete before an earlier one
+  int64_t received = 0;                  ///< messages of this run
+  int64_t lost = 0;                      ///< orders whose result had to be asked for again
+  int64_t duplicate = 0;                 ///< transitions messages that brought nothing new
+  int64_t rejected = 0;                  ///< sum of the causes below
+  int64_t rejected_malformed = 0;        ///< does not decode, or values out of range
+  int64_t rejected_foreign = 0;          ///< another run, another configuration, an order never written
+  int64_t rejected_inconsistent = 0;     ///< an episode that does not follow from its actions
+  int64_t rejected_arithmetic = 0;       ///< statuses of actors whose arithmetic differs
+  int64_t rejected_unauthenticated = 0;  ///< made with another key, or with none
+  int64_t reordered_episodes = 0;        ///< complete before an earlier one
 };
 
 /// Every counter with its name, in the order above.
@@ -33,6 +34,7 @@ inline constexpr BusCounterField kBusCounterFields[] = {
     {"rejected_foreign", &BusCounters::rejected_foreign},
     {"rejected_inconsistent", &BusCounters::rejected_inconsistent},
     {"rejected_arithmetic", &BusCounters::rejected_arithmetic},
+    {"rejected_unauthenticated", &BusCounters::rejected_unauthenticated},
     {"reordered_episodes", &BusCounters::reordered_episodes},
 };
 

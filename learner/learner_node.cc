@@ -37,7 +37,8 @@ LearnerNode::LearnerNode(const Experiment& experiment, const World& world, int64
       identity_{run_id, experiment.hash()},
       config_text_(experiment.Text()),
       total_episodes_(static_cast<int>(experiment.schedule().episodes())),
-      ledger_(world, experiment.mask_options()) {
+      ledger_(world, experiment.mask_options()),
+      key_mismatch_(bus) {
   const MlpShape shape = experiment.network_shape();
   announcement_.protocol_version = kProtocolVersion;
   announcement_.arithmetic_fingerprint = ArithmeticFingerprint();
@@ -61,6 +62,7 @@ void LearnerNode::Subscribe(const std::string& channel, Handler handler) {
       handler(*message);
     } else {
       Reject(&BusCounters::rejected_malformed);
+      key_mismatch_.Note(bytes);
     }
   });
 }
@@ -275,6 +277,10 @@ void LearnerNode::SendStatusIfDue(int64_t now_us) {
   if (now_us >= next_status_us_) {
     next_status_us_ = now_us + kStatusPeriodUs;
     Publish(channels_.learner_status, Status(now_us));
+    const std::lock_guard lock(mutex_);
+    if (const std::string news = key_mismatch_.News(); !news.empty()) {
+      spdlog::warn("{}", news);
+    }
   }
 }
 
@@ -312,11 +318,12 @@ learner_status_t LearnerNode::Status(int64_t now_us) {
   status.staleness_updates = progress_.staleness_updates;
   status.transitions_per_s = transitions_per_s_;
   status.updates_per_s = updates_per_s_;
-  status.received = counters_.received;
-  status.duplicate = counters_.duplicate;
-  status.rejected = counters_.rejected;
-  status.lost = counters_.lost + roster_.late_orders();
-  status.reordered_episodes = counters_.reordered_episodes;
+  const BusCounters counters = CountersLocked();
+  status.received = counters.received;
+  status.duplicate = counters.duplicate;
+  status.rejected = counters.rejected;
+  status.lost = counters.lost;
+  status.reordered_episodes = counters.reordered_episodes;
   status.waiting_for = WaitingForLocked(now_us).substr(0, 160);
   return status;
 }
@@ -328,7 +335,9 @@ std::string LearnerNode::WaitingForLocked(int64_t now_us) const {
   if (!trainer_waits_ || ledger_.in_flight() == 0 || ledger_.IsComplete(ledger_.committed())) {
     return "";
   }
-  return roster_.Awaited(ledger_.committed(), now_us);
+  const std::string awaited = roster_.Awaited(ledger_.committed(), now_us);
+  const std::string reason = roster_.live_actors() == 0 ? key_mismatch_.Reason() : "";
+  return reason.empty() ? awaited : fmt::format("{} ({})", awaited, reason);
 }
 
 std::string LearnerNode::WaitingFor() const {
@@ -347,8 +356,14 @@ void LearnerNode::AnnounceEnd() {
 
 BusCounters LearnerNode::counters() const {
   const std::lock_guard lock(mutex_);
+  return CountersLocked();
+}
+
+BusCounters LearnerNode::CountersLocked() const {
   BusCounters counters = counters_;
   counters.lost += roster_.late_orders();
+  counters.rejected_unauthenticated += bus_->refused_messages();
+  counters.rejected += bus_->refused_messages();
   return counters;
 }
 

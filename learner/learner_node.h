@@ -22,6 +22,7 @@
 #include "learner/trainer.h"
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
+#include "msgs/key_mismatch.h"
 
 namespace fresco {
 
@@ -70,6 +71,7 @@ class LearnerNode {
   void SendStatusIfDue(int64_t now_us);
   learner_status_t Status(int64_t now_us);
   std::string WaitingForLocked(int64_t now_us) const;
+  BusCounters CountersLocked() const;
 
   template <class Message>
   void Publish(const std::string& channel, Message message);
@@ -89,7 +91,8 @@ class LearnerNode {
   Ledger ledger_;
   Roster roster_;
   WeightPublisher publisher_;
-  BusCounters counters_;
+  BusCounters counters_;  // without those of the roster and the bus: see CountersLocked
+  KeyMismatch key_mismatch_;
   TrainerProgress progress_;
   std::optional<Evaluation> last_evaluation_;
   std::optional<Evaluation> best_evaluation_;

@@ -6,6 +6,7 @@
 #include <exception>
 #include <random>
 
+#include "bus/authenticated_bus.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "core/stop_signal.h"
@@ -24,6 +25,7 @@ struct Arguments {
   std::string out;
   std::string resume;
   std::string run_id;
+  KeyFile key_file;
 };
 
 /// Names the run; has no influence on what it learns.
@@ -32,8 +34,8 @@ int64_t DrawRunId() {
   return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
 }
 
-int Run(const Experiment& experiment, LearnerOptions options) {
-  const std::unique_ptr<Bus> bus = OpenLcmBus(experiment.run().lcm_url());
+int Run(const Experiment& experiment, const KeyFile& key_file, LearnerOptions options) {
+  const std::unique_ptr<Bus> bus = OpenBus(experiment.run().lcm_url(), key_file);
   spdlog::info("run {:016x}, configuration {:08x}, on {}", static_cast<uint64_t>(options.run_id),
                experiment.hash(), experiment.run().lcm_url());
   return LearnerProcess(experiment, *bus, std::move(options)).Run() ? 0 : 1;
@@ -49,14 +51,15 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
   }
   RunFolder::Make(arguments.out);
   const FolderLock lock(arguments.out);
-  return Run(Experiment::Load(arguments.config, settings), {arguments.out, RunIdFrom(arguments)});
+  return Run(Experiment::Load(arguments.config, settings), arguments.key_file,
+             {arguments.out, RunIdFrom(arguments)});
 }
 
 int Resume(const Arguments& arguments, const Settings& settings) {
   const FolderLock lock(arguments.resume, kResumePatienceUs);
   Resumption resumption = ReadResumption(arguments.resume, settings);
   const int64_t run_id = resumption.checkpoint ? resumption.checkpoint->run_id : RunIdFrom(arguments);
-  return Run(resumption.experiment,
+  return Run(resumption.experiment, arguments.key_file,
              {arguments.resume, run_id, RunFolder::Use::kResume, std::move(resumption.checkpoint)});
 }
 
@@ -75,6 +78,9 @@ int Main(int argc, char** argv) {
       ->excludes(config)
       ->excludes(out);
   app.add_option("--run-id", arguments.run_id, "Name of the run (16 hexadecimal digits); default: drawn");
+  app.add_option_function<std::string>(
+      "--key-file", [&](const std::string& file) { arguments.key_file = file; },
+      "The run's key: take only messages that are authenticated with it");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

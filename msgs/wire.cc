@@ -1,5 +1,6 @@
 #include "msgs/wire.h"
 
+#include "bus/authenticated_bus.h"
 #include "core/check.h"
 #include "core/crc32c.h"
 
@@ -8,6 +9,8 @@ namespace {
 
 constexpr size_t kFingerprintBytes = 8;
 constexpr size_t kIdentityBytes = 3 * sizeof(int64_t);
+
+static_assert(kTrailerBytes + kAuthenticationTagBytes <= kReservedTrailerBytes);
 
 int32_t BigEndianInt32(std::span<const std::byte> bytes) {
   uint32_t value = 0;
@@ -26,6 +29,11 @@ std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes) {
   const auto encoding = bytes.first(bytes.size() - kTrailerBytes);
   const bool holds = Crc32c(encoding) == static_cast<uint32_t>(BigEndianInt32(bytes.last(kTrailerBytes)));
   return holds ? encoding : std::span<const std::byte>{};
+}
+
+bool CarriesAuthentication(std::span<const std::byte> bytes) {
+  return bytes.size() > kAuthenticationTagBytes + kTrailerBytes &&
+         !WithoutTrailer(bytes.first(bytes.size() - kAuthenticationTagBytes)).empty();
 }
 
 void AppendTrailer(int encoded, std::vector<std::byte>& bytes) {

@@ -24,9 +24,9 @@ inline constexpr int32_t kProtocolVersion = 2;
 
 /// Every message fits one Ethernet frame: LCM loses a whole message with one lost fragment.
 inline constexpr size_t kMaximumMessageBytes = 1350;
-/// Kept free in every message for a trailer behind LCM's encoding, which LCM's own decoders ignore.
-/// Today it is the CRC-32C of the encoding, big-endian: UDP's checksum lets too much through for a
-/// promise about bits. The rest is room for message authentication.
+/// Kept free in every message for a trailer behind LCM's encoding, which LCM's own decoders ignore: the
+/// CRC-32C of the encoding, big-endian (UDP's checksum lets too much through for a promise about bits), and
+/// on an authenticated bus the tag (bus/authenticated_bus.h), which is added behind these codecs.
 inline constexpr size_t kReservedTrailerBytes = 48;
 inline constexpr size_t kTrailerBytes = sizeof(uint32_t);
 inline constexpr size_t kMaximumEncodedBytes = kMaximumMessageBytes - kReservedTrailerBytes;
@@ -74,6 +74,10 @@ inline std::initializer_list<int32_t> CountMaxima(const learner_status_t&) {
 
 /// LCM's encoding without the trailer; empty where the size is not allowed or the CRC does not hold.
 std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes);
+
+/// Whether bytes that do not decode are a sound message with an authentication tag behind it: their sender
+/// has a key, and this receiver has none.
+bool CarriesAuthentication(std::span<const std::byte> bytes);
 
 /// CHECKs that LCM encoded `encoded` bytes of the expected size, and appends the trailer.
 void AppendTrailer(int encoded, std::vector<std::byte>& bytes);

@@ -19,6 +19,7 @@ ALLOWED = {
 # Libraries that only some rooms may see.
 RESERVED = {
     "lcm/": {"bus"},
+    "sodium": {"bus"},
     "Eigen/": {"nn"},
     "google/protobuf/": {"msgs"},
     "nlohmann/": {"learner", "tools"},

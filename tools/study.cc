@@ -99,8 +99,8 @@ class Study {
 
  private:
   struct Running {
-    Running(size_t its_job, const Experiment& experiment, const Path& folder)
-        : job(its_job), run(experiment, folder) {}
+    Running(size_t its_job, const Experiment& experiment, const Path& folder, const KeyFile& key_file)
+        : job(its_job), run(experiment, folder, key_file) {}
     size_t job;
     TrainingRun run;
   };
@@ -117,8 +117,8 @@ class Study {
           fmt::format("{}_{}", config.run().channel_prefix(), place + 1));
     }
     std::filesystem::remove_all(FolderOf(job));  // what an interrupted study left of this run
-    running_[place] =
-        std::make_unique<Running>(job, Experiment::Make(config, jobs_[job].name), FolderOf(job));
+    running_[place] = std::make_unique<Running>(job, Experiment::Make(config, jobs_[job].name), FolderOf(job),
+                                                options_.key_file);
     running_[place]->run.Start();
   }
 

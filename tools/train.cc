@@ -27,6 +27,7 @@ struct TrainOptions {
   std::string out;
   std::string resume;
   std::string lcm_url;
+  KeyFile key_file;
   std::string format = "text";
 };
 
@@ -101,7 +102,7 @@ int TrainAnew(const TrainOptions& options) {
   if (text) {
     Announce(experiment, folder);
   }
-  TrainingRun run(experiment, folder);
+  TrainingRun run(experiment, folder, options.key_file);
   return Train(run, folder, text);
 }
 
@@ -118,7 +119,7 @@ int GoOn(const TrainOptions& options) {
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
-  TrainingRun run(resumption, options.resume);
+  TrainingRun run(resumption, options.resume, options.key_file);
   return Train(run, options.resume, text);
 }
 
@@ -143,6 +144,9 @@ void AddTrain(CLI::App& app, Command& command) {
       ->excludes(seed)
       ->excludes(out);
   train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
+  train->add_option_function<std::string>(
+      "--key-file", [options](const std::string& file) { options->key_file = file; },
+      "Take only messages that are authenticated with this file's key; the actors that join need it, too");
   train->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   train->callback([options, &command] {
     command = [options] { return options->resume.empty() ? TrainAnew(*options) : GoOn(*options); };

@@ -25,20 +25,21 @@ int64_t DrawRunId() {
 
 }  // namespace
 
-TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder)
-    : TrainingRun(experiment, std::move(folder), RunFolder::Use::kNewRun, DrawRunId()) {}
+TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file)
+    : TrainingRun(experiment, std::move(folder), key_file, RunFolder::Use::kNewRun, DrawRunId()) {}
 
-TrainingRun::TrainingRun(const Resumption& resumption, std::filesystem::path folder)
-    : TrainingRun(resumption.experiment, std::move(folder), RunFolder::Use::kResume,
+TrainingRun::TrainingRun(const Resumption& resumption, std::filesystem::path folder, const KeyFile& key_file)
+    : TrainingRun(resumption.experiment, std::move(folder), key_file, RunFolder::Use::kResume,
                   resumption.checkpoint ? resumption.checkpoint->run_id : DrawRunId()) {}
 
-TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder, RunFolder::Use use,
-                         int64_t run_id)
+TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file,
+                         RunFolder::Use use, int64_t run_id)
     : experiment_(experiment),
       folder_(std::move(folder)),
+      key_file_(key_file),
       use_(use),
       run_id_(run_id),
-      bus_(OpenLcmBus(experiment.run().lcm_url())) {
+      bus_(OpenBus(experiment.run().lcm_url(), key_file)) {
   PrepareFolder();
   Listen();
 }
@@ -51,13 +52,15 @@ void TrainingRun::PrepareFolder() const {
 }
 
 void TrainingRun::Listen() {
+  constexpr int kQueueCapacity = 64;  // five statuses a second; nobody polls while processes and report end
   const Channels channels = ChannelsWithPrefix(experiment_.run().channel_prefix());
-  bus_->Subscribe(channels.learner_status, [this](std::span<const std::byte> bytes) {
+  const auto take = [this](std::span<const std::byte> bytes) {
     learner_status_t status{};
     if (Decode(bytes, status) && status.run_id == run_id_) {
       status_ = std::move(status);
     }
-  });
+  };
+  bus_->Subscribe(channels.learner_status, take, kQueueCapacity);
 }
 
 void TrainingRun::Start() {
@@ -103,17 +106,19 @@ std::vector<std::string> TrainingRun::LearnerArguments() const {
     arguments.insert(arguments.end(),
                      {"--config", (folder_ / "config.textproto").string(), "--out", folder_.string()});
   }
-  return arguments;
+  return WithKey(std::move(arguments));
 }
 
 std::vector<std::string> TrainingRun::ActorArguments() const {
-  return {SiblingProgram("fresco-actor").string(),
-          "--lcm-url",
-          experiment_.run().lcm_url(),
-          "--channel-prefix",
-          experiment_.run().channel_prefix(),
-          "--run-id",
-          RunIdText()};
+  return WithKey({SiblingProgram("fresco-actor").string(), "--lcm-url", experiment_.run().lcm_url(),
+                  "--channel-prefix", experiment_.run().channel_prefix(), "--run-id", RunIdText()});
+}
+
+std::vector<std::string> TrainingRun::WithKey(std::vector<std::string> arguments) const {
+  if (key_file_) {
+    arguments.insert(arguments.end(), {"--key-file", key_file_->string()});
+  }
+  return arguments;
 }
 
 std::string TrainingRun::RunIdText() const {

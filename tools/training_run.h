@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/bus.h"
+#include "bus/authenticated_bus.h"
 #include "learner/resumption.h"
 #include "learner/run_folder.h"
 #include "msgs/experiment.h"
@@ -21,9 +21,10 @@ namespace fresco {
 class TrainingRun {
  public:
   /// A new run: opens the bus and makes the folder; throws UsageError where it holds another run.
-  TrainingRun(const Experiment& experiment, std::filesystem::path folder);
+  /// `key_file` goes to every process, and as all of this never into the configuration.
+  TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file = {});
   /// Goes on with the run in `folder`, read by ReadResumption.
-  TrainingRun(const Resumption& resumption, std::filesystem::path folder);
+  TrainingRun(const Resumption& resumption, std::filesystem::path folder, const KeyFile& key_file = {});
   /// Ends every process that is still there.
   ~TrainingRun() = default;
 
@@ -51,11 +52,13 @@ class TrainingRun {
     int64_t start_at_us = 0;
   };
 
-  TrainingRun(const Experiment& experiment, std::filesystem::path folder, RunFolder::Use use, int64_t run_id);
+  TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file,
+              RunFolder::Use use, int64_t run_id);
   void PrepareFolder() const;
   void Listen();
   std::vector<std::string> LearnerArguments() const;
   std::vector<std::string> ActorArguments() const;
+  std::vector<std::string> WithKey(std::vector<std::string> arguments) const;
   std::string RunIdText() const;
   void KeepActorsAlive();
   void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
@@ -63,6 +66,7 @@ class TrainingRun {
 
   Experiment experiment_;
   std::filesystem::path folder_;
+  KeyFile key_file_;
   RunFolder::Use use_;
   int64_t run_id_;
   std::unique_ptr<Bus> bus_;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 
+#include "bus/authenticated_bus.h"
 #include "core/random.h"
 #include "tests/actors/actor_fixture.h"
 #include "tests/msgs/message_samples.h"
@@ -97,6 +98,19 @@ TEST_F(ActorBadInput, IsCountedAndHarmlessWhereSoundMessagesAreOfRandomContent) 
   learner_.SendOrders(Orders(0, 2));
   FlyAll();
   ExpectEpisodes(0, {0, 1});
+}
+
+TEST_F(ActorBadInput, IsCountedWhereItWasMadeWithoutTheActorsKey) {
+  const std::vector<std::byte> secret(32, std::byte{1});
+  const auto keyed = MakeAuthenticatedBus(*bus_, AuthenticationKey(secret));
+  ActorOptions options = OptionsOfTheActor();
+  options.actor_id = kActorId + 1;
+  Actor actor(*keyed, channels_, options);
+  learner_.AnnounceRun();
+  Step();
+  EXPECT_TRUE(actor_.has_run());
+  EXPECT_FALSE(actor.has_run());
+  EXPECT_EQ(actor.totals().rejected_messages, static_cast<int64_t>(learner_.RunParts().size()));
 }
 
 TEST_F(ActorBadInput, IsCountedAndHarmlessWhereOrdersAreOutOfRange) {

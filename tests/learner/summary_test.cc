@@ -25,6 +25,7 @@ BusCounters DistinctCounters() {
   counters.rejected_foreign = 16;
   counters.rejected_inconsistent = 17;
   counters.rejected_arithmetic = 18;
+  counters.rejected_unauthenticated = 20;
   counters.reordered_episodes = 19;
   return counters;
 }
@@ -161,7 +162,7 @@ TEST(Summary, CountsWhatHappenedOnTheBus) {
   const RecordedRun run;
   EXPECT_EQ(SummaryOf(run).at("bus"), Json::parse(R"({
     "received": 11, "lost": 12, "duplicate": 13, "rejected": 14, "rejected_malformed": 15,
-    "rejected_foreign": 16, "rejected_inconsistent": 17, "rejected_arithmetic": 18,
+    "rejected_foreign": 16, "rejected_inconsistent": 17, "rejected_arithmetic": 18, "rejected_unauthenticated": 20,
     "reordered_episodes": 19})"));
 }
 

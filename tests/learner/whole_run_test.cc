@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "actors/actor.h"
+#include "bus/authenticated_bus.h"
 #include "bus/lossy_bus.h"
 #include "core/clock.h"
 #include "learner/learner_node.h"
+#include "tests/learner/forger.h"
 #include "tests/learner/literal_run.h"
 
 namespace fresco {
@@ -18,10 +20,18 @@ constexpr int64_t kRunId = 77;
 
 struct Disturbance {
   int actors = 1;
-  LossOptions loss;
+  LossOptions loss = {};
   bool one_vanishes = false;
   int learner_kills = 0;  ///< the learner ends without a word and another one goes on from its checkpoint
+  bool authenticated = false;
+  bool forged = false;
 };
+
+/// Where an authenticated run's messages pass; a key of its own.
+std::unique_ptr<Bus> Authenticated(Bus& inner) {
+  const std::vector<std::byte> secret(32, std::byte{1});
+  return MakeAuthenticatedBus(inner, AuthenticationKey(secret));
+}
 
 class WholeRun : public ::testing::Test {
  protected:
@@ -42,17 +52,23 @@ class WholeRun : public ::testing::Test {
   /// A run over a memq bus, everything stepped by this thread.
   RunResult Run(const Disturbance& disturbance) {
     const auto memory = OpenLcmBus("memq://");
-    const auto bus = MakeLossyBus(*memory, disturbance.loss);
+    const auto lossy = MakeLossyBus(*memory, disturbance.loss);
+    const auto keyed = Authenticated(*lossy);
+    Bus& bus = disturbance.authenticated ? *keyed : *lossy;
+    std::optional<Forger> forger;
+    if (disturbance.forged) {
+      forger.emplace(experiment_, world_, *memory, ChannelsWithPrefix("TEST"));
+    }
     std::vector<std::unique_ptr<Actor>> actors;
     for (int i = 0; i < disturbance.actors; ++i) {
       ActorOptions options;
       options.actor_id = 100 + i;
       options.capacity = 3;
-      actors.push_back(std::make_unique<Actor>(*bus, ChannelsWithPrefix("TEST"), options));
+      actors.push_back(std::make_unique<Actor>(bus, ChannelsWithPrefix("TEST"), options));
     }
     // Killed learners stay subscribed to the bus that all share, but nobody listens to them any more.
     std::vector<std::unique_ptr<Learner>> learners;
-    learners.push_back(std::make_unique<Learner>(*this, *bus));
+    learners.push_back(std::make_unique<Learner>(*this, bus));
     learners.back()->trainer.Begin();
     TrainingState checkpoint = learners.back()->trainer.Save();
     const int64_t deadline_us = MonotonicMicroseconds() + 60'000'000;
@@ -71,7 +87,7 @@ class WholeRun : public ::testing::Test {
       }
       const auto kills = static_cast<int>(learners.size()) - 1;
       if (kills < disturbance.learner_kills && learner.trainer.progress().episodes > 15 * (kills + 1)) {
-        learners.push_back(std::make_unique<Learner>(*this, *bus));
+        learners.push_back(std::make_unique<Learner>(*this, bus));
         learners.back()->trainer.Resume(checkpoint);
       }
     }
@@ -121,27 +137,61 @@ TEST_F(WholeRun, FollowsFromTheSeed) {
 
 TEST_F(WholeRun, GivesTheSameWeightsWithAnyNumberOfActors) {
   for (const int actors : {1, 2, 5}) {
-    ExpectTheSame(Run({actors, {}, false, 0}));
+    ExpectTheSame(Run({.actors = actors}));
     EXPECT_EQ(counters_.rejected, 0);
   }
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsThroughLossRepetitionReorderingAndCorruption) {
   LossOptions loss{0.05, 0.05, 0.1, 0, 3};
-  ExpectTheSame(Run({2, loss, false, 0}));
+  ExpectTheSame(Run({.actors = 2, .loss = loss}));
   EXPECT_GT(counters_.lost + counters_.duplicate, 0);
   loss.corrupt = 0.05;
-  ExpectTheSame(Run({3, loss, false, 0}));
+  ExpectTheSame(Run({.actors = 3, .loss = loss}));
   EXPECT_GT(counters_.rejected, 0);
 }
 
+TEST_F(WholeRun, GivesTheSameWeightsAmongForgersWhereMessagesAreAuthenticated) {
+  const RunResult forged = Run({.actors = 2, .forged = true});
+  EXPECT_EQ(counters_.rejected, 0);  // nobody noticed
+  EXPECT_FALSE(forged.weights == expected_.weights);
+  ExpectTheSame(Run({.actors = 2, .authenticated = true, .forged = true}));
+  EXPECT_GT(counters_.rejected_unauthenticated, 60);  // an episode each at least
+  EXPECT_EQ(counters_.rejected, counters_.rejected_unauthenticated);
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsWhereAuthenticatedMessagesAreLostRepeatedReorderedAndCorrupted) {
+  ExpectTheSame(
+      Run({.actors = 2, .loss = {0.05, 0.05, 0.1, 0.05, 3}, .authenticated = true, .forged = true}));
+  EXPECT_GT(counters_.rejected_unauthenticated, 60);
+}
+
+TEST_F(WholeRun, SaysThatItWaitsAmongProgramsWithAnotherKey) {
+  const auto memory = OpenLcmBus("memq://");
+  const auto keyed = Authenticated(*memory);
+  const Channels channels = ChannelsWithPrefix("TEST");
+  LearnerNode node(experiment_, world_, kRunId, *keyed, channels);
+  node.WriteOrder({});
+  EXPECT_FALSE(node.WaitForNext(0).has_value());
+  EXPECT_EQ(node.WaitingFor(), "an actor to join");
+  memory->Publish(channels.actor_status, std::vector<std::byte>(100));
+  while (keyed->Poll(0) > 0) {
+  }
+  EXPECT_EQ(
+      node.WaitingFor(),
+      "an actor to join (1 messages dropped: made with another key than that of --key-file here, or with "
+      "none)");
+  EXPECT_EQ(node.counters().rejected_unauthenticated, 1);
+}
+
 TEST_F(WholeRun, GivesTheSameWeightsWhenAnActorVanishes) {
-  ExpectTheSame(Run({3, {}, true, 0}));
+  ExpectTheSame(Run({.actors = 3, .one_vanishes = true}));
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsWhenTheLearnerIsKilledAndResumed) {
-  ExpectTheSame(Run({2, {}, false, 3}));
-  ExpectTheSame(Run({3, {0.05, 0.05, 0.1, 0.02, 6}, true, 3}));
+  ExpectTheSame(Run({.actors = 2, .learner_kills = 3}));
+  ExpectTheSame(
+      Run({.actors = 3, .loss = {0.05, 0.05, 0.1, 0.02, 6}, .one_vanishes = true, .learner_kills = 3}));
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsForPlainDqnWithoutMasksAndTheSchedulesOfThePaper) {
@@ -152,7 +202,7 @@ TEST_F(WholeRun, GivesTheSameWeightsForPlainDqnWithoutMasksAndTheSchedulesOfTheP
                                    {"schedule.linear.initial", "0.9"},
                                    {"agent.exponential.initial", "0.002"}});
   expected_ = RunInOneLoop(experiment_);
-  ExpectTheSame(Run({2, {0.05, 0.02, 0.1, 0.02, 4}, false, 0}));
+  ExpectTheSame(Run({.actors = 2, .loss = {0.05, 0.02, 0.1, 0.02, 4}}));
 }
 
 }  // namespace

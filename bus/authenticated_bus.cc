@@ -1,0 +1,104 @@
+#include "bus/authenticated_bus.h"
+
+#include <sodium.h>
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace fresco {
+namespace {
+
+using Tag = std::array<unsigned char, kAuthenticationTagBytes>;
+
+const unsigned char* Data(std::span<const std::byte> bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes.data());
+}
+
+class AuthenticatedBus : public Bus {
+ public:
+  AuthenticatedBus(Bus& inner, const AuthenticationKey& key) : inner_(&inner), key_(key) {}
+  AuthenticatedBus(std::unique_ptr<Bus> inner, const AuthenticationKey& key)
+      : owned_(std::move(inner)), inner_(owned_.get()), key_(key) {}
+
+  bool Publish(const std::string& channel, std::span<const std::byte> message) override {
+    const std::lock_guard lock(publish_mutex_);
+    const auto tag = std::as_bytes(std::span(TagOf(channel, message, published_tag_)));
+    published_.assign(message.begin(), message.end());
+    published_.insert(published_.end(), tag.begin(), tag.end());
+    return inner_->Publish(channel, published_);
+  }
+
+  void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
+    const auto authenticate = [this, channel,
+                               handler = std::move(handler)](std::span<const std::byte> message) {
+      if (const auto content = Authentic(channel, message)) {
+        handler(*content);
+      } else {
+        refused_.fetch_add(1, std::memory_order_relaxed);
+      }
+    };
+    inner_->Subscribe(channel, authenticate, queue_capacity);
+  }
+
+  int Poll(int64_t timeout_us, int maximum_messages) override {
+    return inner_->Poll(timeout_us, maximum_messages);
+  }
+
+  int64_t refused_messages() const override {
+    return inner_->refused_messages() + refused_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  const Tag& TagOf(const std::string& channel, std::span<const std::byte> content, Tag& tag) const {
+    crypto_generichash_state state;
+    crypto_generichash_init(&state, key_.bytes().data(), key_.bytes().size(), tag.size());
+    // With the zero byte that ends it: no name is the beginning of another and a content.
+    crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(channel.c_str()),
+                              channel.size() + 1);
+    crypto_generichash_update(&state, Data(content), content.size());
+    crypto_generichash_final(&state, tag.data(), tag.size());
+    return tag;
+  }
+
+  /// The content where the tag behind it holds; compared in a time that does not depend on where they differ.
+  std::optional<std::span<const std::byte>> Authentic(const std::string& channel,
+                                                      std::span<const std::byte> message) const {
+    if (message.size() < kAuthenticationTagBytes) {
+      return std::nullopt;
+    }
+    const auto content = message.first(message.size() - kAuthenticationTagBytes);
+    Tag expected;
+    TagOf(channel, content, expected);
+    const bool holds = sodium_memcmp(expected.data(), Data(message.last(kAuthenticationTagBytes)),
+                                     kAuthenticationTagBytes) == 0;
+    return holds ? std::optional(content) : std::nullopt;
+  }
+
+  std::unique_ptr<Bus> owned_;  // where it is this one's own
+  Bus* inner_;
+  AuthenticationKey key_;
+  std::mutex publish_mutex_;  // guards the two below
+  std::vector<std::byte> published_;
+  Tag published_tag_{};
+  std::atomic<int64_t> refused_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Bus> MakeAuthenticatedBus(Bus& inner, const AuthenticationKey& key) {
+  return std::make_unique<AuthenticatedBus>(inner, key);
+}
+
+std::unique_ptr<Bus> OpenBus(const std::string& url, const KeyFile& key_file) {
+  if (!key_file) {
+    return OpenLcmBus(url);
+  }
+  const AuthenticationKey key = ReadAuthenticationKey(*key_file);  // before anything is heard
+  return std::make_unique<AuthenticatedBus>(OpenLcmBus(url), key);
+}
+
+}  // namespace fresco
