@@ -15,9 +15,11 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "core/attentive_clock.h"
 #include "learner/ledger.h"
 #include "learner/optimum_search.h"
 #include "learner/roster.h"
+#include "learner/starvation_warning.h"
 #include "learner/trainer.h"
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
@@ -35,6 +37,10 @@ struct BusCounters {
   int64_t rejected_inconsistent = 0;  ///< an episode that does not follow from its actions
   int64_t rejected_arithmetic = 0;    ///< statuses of actors whose arithmetic differs
   int64_t reordered_episodes = 0;     ///< complete before an earlier one
+  int64_t stale_statuses = 0;         ///< of actors: not newer than the last one of the same actor
+  int64_t crowded_statuses = 0;       ///< of actors beyond Roster::kMaximumActors
+  int64_t weights_chunks_sent = 0;
+  int64_t weights_chunks_repeated = 0;  ///< of those sent: asked for again
 };
 
 class LearnerNode {
@@ -51,6 +57,9 @@ class LearnerNode {
   void SetOptimum(const OptimumBound& optimum);
   /// What the learner itself is busy with before it ends, for the status; in place of an actor.
   void SetFinishing(const std::string& waiting_for);
+  /// What somebody has to see to ("the last checkpoint could not be written: ..."), for the status; empty:
+  /// nothing any more.
+  void SetWarning(const std::string& warning);
   /// Waits up to `timeout_us` for the next episode by index.
   std::optional<CommittedEpisode> WaitForNext(int64_t timeout_us);
 
@@ -62,7 +71,13 @@ class LearnerNode {
 
   // ---- Any thread.
   BusCounters counters() const;
+  /// What the trainer waits for, for whom and in which stage; empty: nothing.
   std::string WaitingFor() const;
+  /// How long the trainer has waited for the next result; time in which this process was stopped does not
+  /// count.
+  double StarvedSeconds() const;
+  /// For people, a few lines: where the run stands, actors and their orders, networks, counters.
+  std::string StateText() const;
   /// Set as soon as another run's learner was heard on the same channels.
   int64_t foreign_run() const;
 
@@ -79,7 +94,12 @@ class LearnerNode {
   void SendWeights(int64_t now_us);
   void SendStatusIfDue(int64_t now_us);
   learner_status_t Status(int64_t now_us);
-  std::string WaitingForLocked(int64_t now_us) const;
+  void WarnIfStarved();
+  std::string WaitingForLocked() const;
+  double StarvedSecondsLocked() const;
+  BusCounters CountersLocked() const;
+  void MeasureRates(int64_t now_us);
+  void AddEvaluations(learner_status_t& status) const;
 
   template <class Message>
   void Publish(const std::string& channel, Message message);
@@ -105,10 +125,13 @@ class LearnerNode {
   std::optional<Evaluation> best_evaluation_;
   std::optional<OptimumBound> optimum_;
   std::string finishing_;
-  bool trainer_waits_ = false;
+  std::string warning_;
+  AttentiveClock clock_;          // of everything that is judged by time here
+  int64_t waiting_since_us_ = 0;  // the trainer, for a result; 0: it does not wait
   int64_t foreign_run_ = 0;
 
   // The network thread's own.
+  StarvationWarning starvation_warning_;
   std::vector<std::byte> bytes_;
   Episode run_;
   int64_t next_run_us_ = 0;

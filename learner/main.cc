@@ -10,6 +10,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/state_signal.h"
 #include "core/stop_signal.h"
 #include "core/version.h"
 #include "learner/learner_node.h"
@@ -61,6 +62,9 @@ class LearnerProcess {
       try {
         while (!stop.stop_requested()) {
           node_.Step();
+          if (StateSignal::TakeRequest()) {
+            spdlog::info("{}", node_.StateText());
+          }
         }
         node_.AnnounceEnd();
       } catch (...) {
@@ -217,6 +221,7 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("fresco-learner"));
   spdlog::set_pattern("%H:%M:%S %n[%P] %l: %v");
   fresco::StopSignal::Install();
+  fresco::StateSignal::Install();
   try {
     return fresco::Main(argc, argv);
   } catch (const fresco::Error& error) {

@@ -30,7 +30,11 @@ Json Counters(const BusCounters& counters) {
           {"rejected_foreign", counters.rejected_foreign},
           {"rejected_inconsistent", counters.rejected_inconsistent},
           {"rejected_arithmetic", counters.rejected_arithmetic},
-          {"reordered_episodes", counters.reordered_episodes}};
+          {"reordered_episodes", counters.reordered_episodes},
+          {"stale_statuses", counters.stale_statuses},
+          {"crowded_statuses", counters.crowded_statuses},
+          {"weights_chunks_sent", counters.weights_chunks_sent},
+          {"weights_chunks_repeated", counters.weights_chunks_repeated}};
 }
 
 void AddPolicy(const std::optional<BestNetwork>& best, Json& json) {
