@@ -47,7 +47,7 @@ void Actor::Subscribe(const std::string& channel, Handler handler) {
       ++totals_.rejected_messages;
       return;
     }
-    now_us_ = MonotonicMicroseconds();
+    now_us_ = options_.clock_us();
     handler(*message);
   });
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "actors/run_announcements.h"
 #include "bus/bus.h"
 #include "core/attentive_clock.h"
+#include "core/clock.h"
 #include "msgs/channels.h"
 
 namespace fresco {
@@ -24,6 +26,7 @@ struct ActorOptions {
   std::optional<int> capacity;  ///< environments; none: as the run's configuration says
   std::string host;
   int32_t pid = 0;
+  std::function<int64_t()> clock_us = MonotonicMicroseconds;  ///< when a message arrives
 };
 
 struct ActorTotals {
