@@ -47,6 +47,30 @@ class Train(FrescoTest):
         self.assertGreater(killed, 0)
         self.assertEqual(json.loads(output)["weights_crc32c"], undisturbed["weights_crc32c"])
 
+    def test_tells_its_state_on_sigusr1_and_goes_on_unharmed(self):
+        settings = ("--set", "schedule.episodes=1000")
+        undisturbed = self.train(17431, "unasked", *settings)
+        folder = self.folder / "asked"
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17431), "--out", folder,
+                             "--format", "json", *settings)
+        try:
+            for log, program, parts in (
+                    ("learner.log", "fresco-learner", ["orders committed", "networks on offer: ", "messages: ",
+                                                       " actors\n  actor "]),
+                    ("actor-0.log", "fresco-actor", ["orders flying", "networks held: ", "episodes"])):
+                text = lambda: (folder / log).read_text() if (folder / log).exists() else ""
+                wait_until(lambda: "serving run" in text() or "on udpm" in text() and program in text(), log)
+                serving = folder / "actor-0.log"  # the learner lists the actors that are there
+                wait_until(lambda: serving.exists() and "serving run" in serving.read_text(), "an actor to serve")
+                for pid in set(processes_with(program)) & set(processes_with("17431") + processes_with(str(folder))):
+                    os.kill(pid, signal.SIGUSR1)
+                wait_until(lambda: " info: state\n" in text(), "the state in " + log)
+                wait_until(lambda: all(part in text() for part in parts), f"{parts} in {log}")
+        finally:
+            output, errors = process.communicate()
+        self.assertEqual(process.returncode, 0, errors)
+        self.assertEqual(json.loads(output)["weights_crc32c"], undisturbed["weights_crc32c"])
+
     def test_speaks_on_all_seven_channels_in_single_frames(self):
         log = self.folder / "lcm.log"
         logger = subprocess.Popen(["lcm-logger", "--lcm-url=" + url(17303) + "&recv_buf_size=4194304", "-f", log],

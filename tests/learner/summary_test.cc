@@ -26,6 +26,10 @@ BusCounters DistinctCounters() {
   counters.rejected_inconsistent = 17;
   counters.rejected_arithmetic = 18;
   counters.reordered_episodes = 19;
+  counters.stale_statuses = 20;
+  counters.crowded_statuses = 21;
+  counters.weights_chunks_sent = 22;
+  counters.weights_chunks_repeated = 23;
   return counters;
 }
 
@@ -162,7 +166,8 @@ TEST(Summary, CountsWhatHappenedOnTheBus) {
   EXPECT_EQ(SummaryOf(run).at("bus"), Json::parse(R"({
     "received": 11, "lost": 12, "duplicate": 13, "rejected": 14, "rejected_malformed": 15,
     "rejected_foreign": 16, "rejected_inconsistent": 17, "rejected_arithmetic": 18,
-    "reordered_episodes": 19})"));
+    "reordered_episodes": 19, "stale_statuses": 20, "crowded_statuses": 21,
+    "weights_chunks_sent": 22, "weights_chunks_repeated": 23})"));
 }
 
 TEST(Summary, HasNoFiguresBeforeTheFirstEvaluation) {

@@ -20,6 +20,7 @@ struct Disturbance {
   int actors = 1;
   LossOptions loss;
   bool one_vanishes = false;
+  int64_t learner_dies_after = 0;  // so many episodes, and begins again with the same run_id; 0: it does not
 };
 
 class WholeRun : public ::testing::Test {
@@ -29,12 +30,21 @@ class WholeRun : public ::testing::Test {
     spdlog::set_level(spdlog::level::err);
   }
 
+  struct Learner {
+    Learner(WholeRun& test, Bus& bus, const Channels& channels)
+        : node(test.experiment_, test.world_, kRunId, bus, channels),
+          trainer(test.experiment_, test.world_, test.OutputTo(node)) {
+      trainer.Begin();
+    }
+    LearnerNode node;
+    Trainer trainer;
+  };
+
   /// A run over a memq bus, everything stepped by this thread.
   RunResult Run(const Disturbance& disturbance) {
     const auto memory = OpenLcmBus("memq://");
     const auto bus = MakeLossyBus(*memory, disturbance.loss);
     const Channels channels = ChannelsWithPrefix("TEST");
-    LearnerNode node(experiment_, world_, kRunId, *bus, channels);
     std::vector<std::unique_ptr<Actor>> actors;
     for (int i = 0; i < disturbance.actors; ++i) {
       ActorOptions options;
@@ -42,21 +52,38 @@ class WholeRun : public ::testing::Test {
       options.capacity = 3;
       actors.push_back(std::make_unique<Actor>(*bus, channels, options));
     }
-    Trainer trainer(experiment_, world_, OutputTo(node));
-    trainer.Begin();
+    Learner first(*this, *bus, channels);
+    if (disturbance.learner_dies_after == 0) {
+      return Finish(first, actors, disturbance.one_vanishes);
+    }
+    while (first.trainer.progress().episodes < disturbance.learner_dies_after) {
+      StepAll(first, actors, 0);
+    }
+    Learner second(*this, *bus, channels);
+    return Finish(second, actors, disturbance.one_vanishes);
+  }
+
+  static void StepAll(Learner& learner, std::vector<std::unique_ptr<Actor>>& actors, size_t first_actor) {
+    learner.node.Step();
+    for (size_t i = first_actor; i < actors.size(); ++i) {
+      actors[i]->Step(MonotonicMicroseconds());
+    }
+    while (const auto next = learner.node.WaitForNext(0)) {
+      learner.trainer.Commit(next->order, next->episode);
+    }
+  }
+
+  RunResult Finish(Learner& learner, std::vector<std::unique_ptr<Actor>>& actors, bool one_vanishes) {
+    const Trainer& trainer = learner.trainer;
     const int64_t deadline_us = MonotonicMicroseconds() + 60'000'000;
     while (!trainer.finished() && MonotonicMicroseconds() < deadline_us) {
-      node.Step();
-      const size_t stepping = disturbance.one_vanishes && trainer.progress().episodes > 20 ? 1 : 0;
-      for (size_t i = stepping; i < actors.size(); ++i) {
-        actors[i]->Step(MonotonicMicroseconds());
-      }
-      while (const auto next = node.WaitForNext(0)) {
-        trainer.Commit(next->order, next->episode);
-      }
+      StepAll(learner, actors, one_vanishes && trainer.progress().episodes > 20 ? 1 : 0);
     }
-    EXPECT_TRUE(trainer.finished()) << node.WaitingFor();
-    counters_ = node.counters();
+    EXPECT_TRUE(trainer.finished()) << learner.node.WaitingFor();
+    counters_ = learner.node.counters();
+    for (const auto& actor : actors) {
+      resent_episodes_ += actor->totals().resent_episodes;
+    }
     return {trainer.current(), trainer.progress().updates, 0, trainer.best()->evaluation.figures.average_aoi};
   }
 
@@ -81,6 +108,7 @@ class WholeRun : public ::testing::Test {
   World world_;
   RunResult expected_;
   BusCounters counters_;
+  int64_t resent_episodes_ = 0;
 };
 
 TEST_F(WholeRun, LearnsSomethingAndEvaluatesOnTheWay) {
@@ -113,6 +141,23 @@ TEST_F(WholeRun, GivesTheSameWeightsThroughLossRepetitionReorderingAndCorruption
 
 TEST_F(WholeRun, GivesTheSameWeightsWhenAnActorVanishes) {
   ExpectTheSame(Run({3, {}, true}));
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsWhenTwoHundredActorsJoinAtOnce) {
+  ExpectTheSame(Run({200, {}, false}));
+  EXPECT_EQ(counters_.rejected, 0);
+  // What they all lack at first is sent again as one union, not two hundred times.
+  const int64_t first_time = counters_.weights_chunks_sent - counters_.weights_chunks_repeated;
+  EXPECT_LT(counters_.weights_chunks_repeated, 4 * first_time);
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsWhenTheLearnerBeginsAgainAmongTheActorsOfBefore) {
+  for (const int64_t episodes : {1, 2, 30}) {
+    resent_episodes_ = 0;
+    ExpectTheSame(Run({3, {}, false, episodes}));
+    EXPECT_TRUE(episodes > 2 || resent_episodes_ > 0);  // what is still in the window is not flown again
+    ExpectTheSame(Run({3, {0.05, 0.05, 0.1, 0.05, 5}, false, episodes}));
+  }
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsForPlainDqnWithoutMasksAndTheSchedulesOfThePaper) {
