@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/clock.h"
@@ -12,9 +13,9 @@ namespace fresco {
 namespace {
 
 constexpr int64_t kStatusPeriodUs = 100'000;
-constexpr int64_t kQuietUs = 4'000;          // no chunk for so long: what is missing was lost
-constexpr int64_t kRequestPeriodUs = 8'000;  // between two requests for missing chunks
 constexpr int64_t kSilentRunUs = 10'000'000;
+constexpr int64_t kSendAgainUs = 50'000;  // the learner repeats an order every 60 ms
+constexpr int64_t kLargestIndex = int64_t{1} << 32;
 
 }  // namespace
 
@@ -48,7 +49,7 @@ void Actor::Subscribe(const std::string& channel, Handler handler) {
       key_mismatch_.Note(bytes);
       return;
     }
-    now_us_ = MonotonicMicroseconds();
+    now_us_ = options_.clock_us();
     handler(*message);
   });
 }
@@ -56,7 +57,8 @@ void Actor::Subscribe(const std::string& channel, Handler handler) {
 void Actor::HandleRun(const run_t& message) {
   const RunIdentity identity = IdentityOf(message);
   if (session_ != nullptr && session_->identity == identity) {
-    session_->last_heard_us = now_us_;
+    session_->last_heard_us = attention_.now_us();
+    ++totals_.received_messages;
     if (message.finished != 0) {
       spdlog::info("run {:016x} is over", static_cast<uint64_t>(identity.run_id));
       session_.reset();
@@ -97,7 +99,7 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
     }
     const int capacity = options_.capacity.value_or(experiment.run().environments_per_actor());
     session_ = std::make_unique<Session>(std::move(experiment), IdentityOf(message), capacity);
-    session_->last_heard_us = now_us_;
+    session_->last_heard_us = attention_.now_us();
     ++totals_.runs;
     run_over_ = false;
     spdlog::info("serving run {:016x}, configuration {:08x}, {} environments",
@@ -117,7 +119,8 @@ bool Actor::IsMine(RunIdentity identity) {
     ++totals_.rejected_messages;
     return false;
   }
-  session_->last_heard_us = now_us_;
+  session_->last_heard_us = attention_.now_us();
+  ++totals_.received_messages;
   return true;
 }
 
@@ -125,68 +128,92 @@ void Actor::HandleOrders(const orders_t& message) {
   if (!IsMine(IdentityOf(message))) {
     return;
   }
-  ForgetCommitted(message.committed_orders);
-  for (const order_t& order : message.orders) {
-    if (order.actor_id == options_.actor_id && order.index >= message.committed_orders) {
-      TakeOrder(order);
-    }
-  }
-}
-
-void Actor::TakeOrder(const order_t& wire) {
-  Order order;
-  if (!FromWire(wire, order)) {
+  if (message.committed_orders < 0 || message.committed_orders > kLargestIndex) {
     ++totals_.rejected_messages;
     return;
   }
-  int32_t& answered = session_->attempts.try_emplace(order.index, -1).first->second;
-  const bool asked_again = wire.attempt > answered;
-  answered = std::max(answered, wire.attempt);
-  const auto flown = session_->flown.find(order.index);
-  if (flown != session_->flown.end()) {
-    if (asked_again) {
-      ++totals_.resent_episodes;
-      Send(flown->second);
+  KeepWindow(message.committed_orders);
+  const int64_t end = message.committed_orders + session_->experiment.schedule().window();
+  for (const order_t& wire : message.orders) {
+    Order order;
+    if (wire.actor_id != options_.actor_id || (wire.index >= 0 && wire.index < message.committed_orders)) {
+      continue;
     }
-  } else if (!session_->flyer.IsFlying(order.index)) {
-    session_->waiting.try_emplace(order.index, order);
+    if (FromWire(wire, order) && order.index < end) {
+      TakeOrder(order);
+    } else {
+      ++totals_.rejected_messages;
+    }
   }
 }
 
-void Actor::ForgetCommitted(int64_t committed) {
-  const auto forget = [&](auto& by_index) {
+/// The newest announcement of an order counts: what was flown for another order of that index, by a
+/// learner that is no more or a liar, is flown anew.
+void Actor::TakeOrder(const Order& order) {
+  const auto flown = session_->flown.find(order.index);
+  if (flown != session_->flown.end() && flown->second.order == order) {
+    SendAgain(flown->second);
+  } else if (!session_->flyer.IsFlying(order.index)) {
+    session_->waiting.insert_or_assign(order.index, order);
+  }
+}
+
+void Actor::SendAgain(Flown& flown) {
+  if (now_us_ - flown.sent_us >= kSendAgainUs) {
+    flown.sent_us = now_us_;
+    ++totals_.resent_episodes;
+    Send(flown.episode);
+  }
+}
+
+/// Bounds memory, also where `committed` has gone back because the learner was resumed.
+void Actor::KeepWindow(int64_t committed) {
+  session_->committed = committed;
+  const int64_t end = committed + session_->experiment.schedule().window();
+  const auto keep = [&](auto& by_index) {
     by_index.erase(by_index.begin(), by_index.lower_bound(committed));
+    by_index.erase(by_index.lower_bound(end), by_index.end());
   };
-  forget(session_->waiting);
-  forget(session_->flown);
-  forget(session_->attempts);
+  keep(session_->waiting);
+  keep(session_->flown);
 }
 
 void Actor::HandleWeights(NetworkKind kind, const weights_t& message) {
-  if (IsMine(IdentityOf(message)) &&
-      session_->store.Add(kind, message, now_us_) == NetworkStore::Arrival::kRejected) {
+  if (!IsMine(IdentityOf(message))) {
+    return;
+  }
+  NetworkStore& store = session_->store;
+  const NetworkStore::Arrival arrival = store.Add(kind, message, now_us_);
+  if (arrival == NetworkStore::Arrival::kCompleted) {
+    ++totals_.completed_versions;
+    totals_.longest_assembly_us = std::max(totals_.longest_assembly_us, store.longest_assembly_us());
+  } else if (arrival == NetworkStore::Arrival::kRejected || arrival == NetworkStore::Arrival::kRestarted) {
     ++totals_.rejected_messages;
   }
 }
 
 bool Actor::Step(int64_t now_us) {
   now_us_ = now_us;
-  LeaveSilentRun(now_us);
+  attention_.Look(now_us);
+  LeaveSilentRun();
   if (session_ != nullptr) {
     StartFlights();
-    session_->flyer.Step([this](const Episode& episode) {
-      Send(episode);
-      ++totals_.episodes;
-      totals_.transitions += episode.transitions();
-      session_->flown.insert_or_assign(episode.order_index, episode);
-    });
+    session_->flyer.Step([this](const Order& order, const Episode& episode) { Finish(order, episode); });
   }
   SendStatusIfDue(now_us);
   return session_ != nullptr && !session_->flyer.Idle();
 }
 
-void Actor::LeaveSilentRun(int64_t now_us) {
-  if (session_ != nullptr && now_us - session_->last_heard_us > kSilentRunUs) {
+void Actor::Finish(const Order& order, const Episode& episode) {
+  Send(episode);
+  ++totals_.episodes;
+  totals_.transitions += episode.transitions();
+  session_->flown.insert_or_assign(order.index, Flown{order, episode, now_us_});
+}
+
+/// Silence is what was listened to: a process that was stopped finds its messages waiting when it wakes.
+void Actor::LeaveSilentRun() {
+  if (session_ != nullptr && attention_.now_us() - session_->last_heard_us > kSilentRunUs) {
     spdlog::warn("nothing heard of run {:016x} for {} s; looking for a run",
                  static_cast<uint64_t>(session_->identity.run_id), kSilentRunUs / 1'000'000);
     session_.reset();
@@ -219,68 +246,26 @@ void Actor::Send(const Episode& episode) {
 }
 
 void Actor::SendStatusIfDue(int64_t now_us) {
-  const bool may_request = session_ != nullptr && now_us >= next_request_us_ && !session_->waiting.empty();
+  const bool may_request = session_ != nullptr && now_us >= next_request_us_;
   if (now_us < next_status_us_ && !may_request) {
     return;
   }
+  next_request_us_ = now_us + kRequestPeriodUs;
   actor_status_t status = Status(now_us);
   if (now_us < next_status_us_ && status.missing_count == 0) {
     return;
   }
+  status.sequence = next_sequence_++;
   Stamp(status, session_ != nullptr ? session_->identity : RunIdentity{}, WallMicroseconds());
   std::vector<std::byte> bytes;
   Encode(status, bytes);
   bus_->Publish(channels_.actor_status, bytes);
-  next_request_us_ = now_us + kRequestPeriodUs;
   if (now_us >= next_status_us_) {
     next_status_us_ = now_us + kStatusPeriodUs;
     if (const std::string news = key_mismatch_.News(); !news.empty()) {
       spdlog::warn("{}", news);
     }
   }
-}
-
-actor_status_t Actor::Status(int64_t now_us) {
-  constexpr int64_t kRatePeriodUs = 1'000'000;
-  if (now_us - rate_since_us_ >= kRatePeriodUs) {
-    const double seconds = static_cast<double>(now_us - rate_since_us_) * 1e-6;
-    transitions_per_s_ =
-        static_cast<float>(static_cast<double>(totals_.transitions - rate_transitions_) / seconds);
-    rate_since_us_ = now_us;
-    rate_transitions_ = totals_.transitions;
-  }
-  actor_status_t status{};
-  status.actor_id = options_.actor_id;
-  status.pid = options_.pid;
-  status.host = options_.host.substr(0, 64);
-  status.arithmetic_fingerprint = arithmetic_fingerprint_;
-  status.episodes = totals_.episodes;
-  status.transitions = totals_.transitions;
-  status.resent_episodes = totals_.resent_episodes;
-  status.rejected_messages = totals().rejected_messages;
-  status.transitions_per_s = transitions_per_s_;
-  if (session_ != nullptr) {
-    status.capacity = options_.capacity.value_or(session_->experiment.run().environments_per_actor());
-    status.open_orders = static_cast<int32_t>(session_->waiting.size()) + session_->flyer.open_flights();
-    status.held = session_->store.HeldVersions();
-    status.missing = session_->store.MissingRanges(now_us, kQuietUs);
-  }
-  status.held_count = static_cast<int32_t>(status.held.size());
-  status.missing_count = static_cast<int32_t>(status.missing.size());
-  return status;
-}
-
-std::string Actor::Description() const {
-  return fmt::format(
-      "actor {:016x}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} messages rejected",
-      static_cast<uint64_t>(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
-      totals_.resent_episodes, totals().rejected_messages);
-}
-
-ActorTotals Actor::totals() const {
-  ActorTotals totals = totals_;
-  totals.rejected_messages += bus_->refused_messages();
-  return totals;
 }
 
 }  // namespace fresco

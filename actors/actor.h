@@ -4,7 +4,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +14,8 @@
 #include "actors/network_store.h"
 #include "actors/run_announcements.h"
 #include "bus/bus.h"
+#include "core/attentive_clock.h"
+#include "core/clock.h"
 #include "msgs/channels.h"
 #include "msgs/key_mismatch.h"
 
@@ -25,6 +27,7 @@ struct ActorOptions {
   std::optional<int> capacity;  ///< environments; none: as the run's configuration says
   std::string host;
   int32_t pid = 0;
+  std::function<int64_t()> clock_us = MonotonicMicroseconds;  ///< when a message arrives
 };
 
 struct ActorTotals {
@@ -32,7 +35,10 @@ struct ActorTotals {
   int64_t episodes = 0;
   int64_t transitions = 0;
   int64_t resent_episodes = 0;
-  int64_t rejected_messages = 0;  ///< malformed, of another run, configuration or key, corrupt
+  int64_t completed_versions = 0;
+  int64_t longest_assembly_us = 0;  ///< of a version, from its first chunk until it was complete
+  int64_t received_messages = 0;    ///< of the runs served
+  int64_t rejected_messages = 0;    ///< malformed, of another run, configuration or key, corrupt
 };
 
 class Actor {
@@ -49,10 +55,21 @@ class Actor {
   bool has_run() const { return session_ != nullptr; }
   /// Whether the run that it last served has ended.
   bool run_over() const { return run_over_; }
+  /// The last line of the log: what it did in its life.
   std::string Description() const;
+  /// For people, a few lines: the run, what every open order waits for, networks, totals.
+  std::string StateText() const;
 
  private:
-  /// Everything that belongs to one run.
+  /// A flown episode, to be sent again where its order is announced again.
+  struct Flown {
+    Order order;
+    Episode episode;
+    int64_t sent_us = 0;
+  };
+
+  /// Everything that belongs to one run. Orders and episodes are kept within the window that the newest
+  /// orders_t tells of.
   struct Session {
     Session(Experiment the_experiment, RunIdentity the_identity, int capacity);
     Experiment experiment;
@@ -60,23 +77,29 @@ class Actor {
     RunIdentity identity;
     NetworkStore store;
     Flyer flyer;
-    std::map<int64_t, Order> waiting;     // by index: for networks or room
-    std::map<int64_t, Episode> flown;     // by index, until committed: to be sent again if asked for
-    std::map<int64_t, int32_t> attempts;  // by index: the last one answered
-    int64_t last_heard_us = 0;
+    int64_t committed = 0;             // orders below are done
+    std::map<int64_t, Order> waiting;  // by index: for networks or room
+    std::map<int64_t, Flown> flown;    // by index
+    int64_t last_heard_us = 0;         // by attention_
   };
 
   void HandleRun(const run_t& message);
   void HandleOrders(const orders_t& message);
   void HandleWeights(NetworkKind kind, const weights_t& message);
   void StartSession(const run_t& message, const std::string& text);
-  void TakeOrder(const order_t& wire);
-  void ForgetCommitted(int64_t committed);
+  void TakeOrder(const Order& order);
+  void KeepWindow(int64_t committed);
   void StartFlights();
+  void Finish(const Order& order, const Episode& episode);
+  void SendAgain(Flown& flown);
   void Send(const Episode& episode);
   void SendStatusIfDue(int64_t now_us);
-  void LeaveSilentRun(int64_t now_us);
+  void LeaveSilentRun();
+  void MeasureRate(int64_t now_us);
+  static int64_t OldestOpenOrder(const Session& session);
+  void AddSession(Session& session, int64_t now_us, actor_status_t& status) const;
   actor_status_t Status(int64_t now_us);
+  std::string WaitsFor(const Order& order) const;
   bool IsMine(RunIdentity identity);
 
   template <class Message, class Handler>
@@ -93,6 +116,8 @@ class Actor {
   bool run_over_ = false;
   int64_t refused_run_ = 0;  // a run that this actor can't serve: said once
   int64_t now_us_ = 0;
+  AttentiveClock attention_;
+  int64_t next_sequence_ = 0;  // of the statuses
   int64_t next_status_us_ = 0;
   int64_t next_request_us_ = 0;
   int64_t rate_since_us_ = 0;

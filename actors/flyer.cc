@@ -65,6 +65,14 @@ bool Flyer::IsFlying(int64_t order_index) const {
                      [&](const auto& flight) { return flight->order.index == order_index; });
 }
 
+std::vector<int64_t> Flyer::OrderIndices() const {
+  std::vector<int64_t> indices;
+  for (const auto& flight : flights_) {
+    indices.push_back(flight->order.index);
+  }
+  return indices;
+}
+
 void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
   FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
   auto& flight =
@@ -74,7 +82,7 @@ void Flyer::Start(const Order& order, SharedParameters current, SharedParameters
   flight->episode.states.push_back(flight->environment.state());
 }
 
-void Flyer::Step(const std::function<void(const Episode&)>& finished) {
+void Flyer::Step(const std::function<void(const Order&, const Episode&)>& finished) {
   // Flights of the same two versions stand side by side; the order within a group has no influence.
   std::stable_sort(flights_.begin(), flights_.end(), [](const auto& a, const auto& b) {
     return std::pair(a->order.current_version, a->order.target_version) <
@@ -92,7 +100,7 @@ void Flyer::Step(const std::function<void(const Episode&)>& finished) {
   }
   for (const auto& flight : flights_) {
     if (flight->episode.outcome != Outcome::kFlying) {
-      finished(flight->episode);
+      finished(flight->order, flight->episode);
     }
   }
   std::erase_if(flights_, [](const auto& flight) { return flight->episode.outcome != Outcome::kFlying; });
@@ -188,7 +196,7 @@ Episode FlyGreedily(const World& world, const Experiment& experiment, SharedPara
   flyer.Start(order, parameters, parameters);
   Episode flown;
   while (!flyer.Idle()) {
-    flyer.Step([&](const Episode& episode) { flown = episode; });
+    flyer.Step([&](const Order&, const Episode& episode) { flown = episode; });
   }
   return flown;
 }

@@ -32,12 +32,13 @@ class Flyer {
   bool Idle() const { return flights_.empty(); }
   int open_flights() const { return static_cast<int>(flights_.size()); }
   bool IsFlying(int64_t order_index) const;
+  std::vector<int64_t> OrderIndices() const;
 
   /// Takes an order with the parameters of its two versions. CHECKs that there is room.
   void Start(const Order& order, SharedParameters current, SharedParameters target);
 
   /// Flies one slot of every open order, and hands each episode that ends to `finished`.
-  void Step(const std::function<void(const Episode&)>& finished);
+  void Step(const std::function<void(const Order&, const Episode&)>& finished);
 
  private:
   struct Flight {

@@ -12,6 +12,7 @@
 #include "bus/authenticated_bus.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/state_signal.h"
 #include "core/stop_signal.h"
 #include "core/version.h"
 #include "msgs/settings.h"
@@ -62,6 +63,9 @@ void Serve(const Arguments& arguments) {
   while (!StopSignal::Requested() && !(arguments.once && actor.run_over())) {
     const bool busy = actor.Step(MonotonicMicroseconds());
     bus->Poll(busy ? 0 : kWaitUs);
+    if (StateSignal::TakeRequest()) {
+      spdlog::info("{}", actor.StateText());
+    }
   }
   spdlog::info("{}", actor.Description());
 }
@@ -97,6 +101,7 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_st("fresco-actor"));
   spdlog::set_pattern("%H:%M:%S %n[%P] %l: %v");
   fresco::StopSignal::Install();
+  fresco::StateSignal::Install();
   try {
     return fresco::Main(argc, argv);
   } catch (const fresco::Error& error) {

@@ -1,6 +1,7 @@
 #include "actors/network_store.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/crc32c.h"
 
@@ -9,6 +10,8 @@ namespace {
 
 // Versions kept beyond the wanted ones: the newest, which the next orders will name.
 constexpr size_t kSpareVersions = 8;
+// The learner does not answer for so long: it has dropped the version, or never made it.
+constexpr int64_t kGivenUpUs = 500'000;
 
 chunk_range_t Range(NetworkVersion version, int first, int count) {
   chunk_range_t range{};
@@ -27,9 +30,13 @@ NetworkStore::Arrival NetworkStore::Add(NetworkKind kind, const weights_t& messa
     return Arrival::kRejected;
   }
   const NetworkVersion version{kind, message.version};
-  Assembly& assembly = Open(version, message.crc32c, now_us);
-  if (assembly.crc32c != message.crc32c) {
+  Assembly& assembly = Open(version, message, now_us);
+  const bool contradicts = assembly.crc32c != message.crc32c;
+  if (contradicts && assembly.complete()) {
     return Arrival::kRejected;
+  }
+  if (contradicts) {
+    Begin(assembly, message.crc32c, now_us);  // whichever of the two is the wrong one
   }
   assembly.last_arrival_us = now_us;
   if (assembly.received[static_cast<size_t>(chunk)] != 0) {
@@ -37,18 +44,25 @@ NetworkStore::Arrival NetworkStore::Add(NetworkKind kind, const weights_t& messa
   }
   std::copy(message.values.begin(), message.values.end(), assembly.values->data() + message.offset);
   assembly.received[static_cast<size_t>(chunk)] = 1;
-  if (--assembly.missing_chunks > 0) {
-    return Arrival::kAccepted;
+  if (--assembly.missing_chunks == 0) {
+    return Complete(version, assembly, now_us);
   }
+  return contradicts ? Arrival::kRestarted : Arrival::kAccepted;
+}
+
+NetworkStore::Arrival NetworkStore::Complete(NetworkVersion version, const Assembly& assembly,
+                                             int64_t now_us) {
   const std::span<const float> values(assembly.values->data(), static_cast<size_t>(parameters_));
   if (Crc32c(values) != static_cast<uint32_t>(assembly.crc32c)) {
     versions_.erase(version);  // some chunk was corrupt: ask for all of them again
     return Arrival::kRejected;
   }
+  ++completed_versions_;
+  longest_assembly_us_ = std::max(longest_assembly_us_, now_us - assembly.first_arrival_us);
   return Arrival::kCompleted;
 }
 
-NetworkStore::Assembly& NetworkStore::Open(NetworkVersion version, int64_t crc32c, int64_t now_us) {
+NetworkStore::Assembly& NetworkStore::Open(NetworkVersion version, const weights_t& message, int64_t now_us) {
   const auto found = versions_.find(version);
   if (found != versions_.end()) {
     return found->second;
@@ -56,27 +70,41 @@ NetworkStore::Assembly& NetworkStore::Open(NetworkVersion version, int64_t crc32
   MakeRoom();
   Assembly& assembly = versions_[version];
   assembly.values = std::make_shared<Vector>(parameters_);
-  assembly.missing_chunks = ChunkCount(parameters_);
-  assembly.received.assign(static_cast<size_t>(assembly.missing_chunks), 0);
-  assembly.crc32c = crc32c;
-  assembly.last_arrival_us = now_us;
+  Begin(assembly, message.crc32c, now_us);
   asked_us_.erase(version);
   return assembly;
 }
 
+void NetworkStore::Begin(Assembly& assembly, int64_t crc32c, int64_t now_us) const {
+  assembly.missing_chunks = ChunkCount(parameters_);
+  assembly.received.assign(static_cast<size_t>(assembly.missing_chunks), 0);
+  assembly.crc32c = crc32c;
+  assembly.first_arrival_us = now_us;
+  assembly.last_arrival_us = now_us;
+}
+
+/// Forgets unwanted versions, first the one of which nothing has arrived for the longest time: a version
+/// number says nothing of its worth, where a run was resumed or the number is a lie.
 void NetworkStore::MakeRoom() {
-  size_t unwanted = 0;
-  auto oldest = versions_.end();
-  for (auto it = versions_.begin(); it != versions_.end(); ++it) {
-    if (!wanted_.contains(it->first)) {
-      ++unwanted;
-      if (oldest == versions_.end() || it->first.second < oldest->first.second) {
-        oldest = it;
-      }
+  std::vector<std::tuple<int64_t, int32_t, NetworkKind>> unwanted;
+  for (const auto& [version, assembly] : versions_) {
+    if (!wanted_.contains(version)) {
+      unwanted.emplace_back(assembly.last_arrival_us, version.second, version.first);
     }
   }
-  if (unwanted >= kSpareVersions) {
-    versions_.erase(oldest);
+  std::sort(unwanted.begin(), unwanted.end());
+  for (size_t i = 0; i + kSpareVersions <= unwanted.size(); ++i) {
+    versions_.erase({std::get<NetworkKind>(unwanted[i]), std::get<int32_t>(unwanted[i])});
+  }
+}
+
+void NetworkStore::SetWanted(std::set<NetworkVersion> wanted) {
+  wanted_ = std::move(wanted);
+  for (const NetworkKind kind : {NetworkKind::kCurrent, NetworkKind::kTarget}) {
+    const auto oldest = wanted_.lower_bound({kind, 0});
+    if (oldest != wanted_.end() && oldest->first == kind) {
+      oldest_wanted_[kind] = oldest->second;
+    }
   }
 }
 
@@ -85,21 +113,33 @@ std::shared_ptr<const Vector> NetworkStore::Find(NetworkVersion version) const {
   return found != versions_.end() && found->second.complete() ? found->second.values : nullptr;
 }
 
-std::vector<chunk_range_t> NetworkStore::MissingRanges(int64_t now_us, int64_t quiet_us) {
+std::vector<chunk_range_t> NetworkStore::MissingRanges(int64_t now_us) {
   std::vector<chunk_range_t> ranges;
   std::erase_if(asked_us_, [&](const auto& entry) { return !wanted_.contains(entry.first); });
   for (const NetworkVersion& version : wanted_) {
     const auto found = versions_.find(version);
     if (found == versions_.end()) {
       const int64_t since_us = asked_us_.try_emplace(version, now_us).first->second;
-      if (now_us - since_us >= quiet_us && ranges.size() < kMaximumMissingRanges) {
+      if (now_us - since_us >= kQuietUs && ranges.size() < kMaximumMissingRanges) {
         ranges.push_back(Range(version, 0, ChunkCount(parameters_)));
       }
-    } else if (!found->second.complete() && now_us - found->second.last_arrival_us >= quiet_us) {
+    } else if (!found->second.complete() && now_us - found->second.last_arrival_us >= kQuietUs) {
       AppendMissing(version, found->second, ranges);
     }
   }
+  for (const auto& [version, assembly] : versions_) {
+    if (IsOnItsWay(version, assembly, now_us)) {
+      AppendMissing(version, assembly, ranges);
+    }
+  }
   return ranges;
+}
+
+bool NetworkStore::IsOnItsWay(NetworkVersion version, const Assembly& assembly, int64_t now_us) const {
+  const int64_t quiet_us = now_us - assembly.last_arrival_us;
+  const auto oldest = oldest_wanted_.find(version.first);
+  return !assembly.complete() && !wanted_.contains(version) && quiet_us >= kQuietUs &&
+         quiet_us < kGivenUpUs && (oldest == oldest_wanted_.end() || version.second >= oldest->second);
 }
 
 void NetworkStore::AppendMissing(NetworkVersion version, const Assembly& assembly,
@@ -115,6 +155,11 @@ void NetworkStore::AppendMissing(NetworkVersion version, const Assembly& assembl
       first = end;
     }
   }
+}
+
+int NetworkStore::MissingChunks(NetworkVersion version) const {
+  const auto found = versions_.find(version);
+  return found == versions_.end() ? ChunkCount(parameters_) : found->second.missing_chunks;
 }
 
 std::vector<chunk_range_t> NetworkStore::HeldVersions() const {

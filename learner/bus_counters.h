@@ -18,6 +18,10 @@ struct BusCounters {
   int64_t rejected_arithmetic = 0;       ///< statuses of actors whose arithmetic differs
   int64_t rejected_unauthenticated = 0;  ///< made with another key, or with none
   int64_t reordered_episodes = 0;        ///< complete before an earlier one
+  int64_t stale_statuses = 0;            ///< of actors: not newer than the last one of the same actor
+  int64_t crowded_statuses = 0;          ///< of actors beyond Roster::kMaximumActors
+  int64_t weights_chunks_sent = 0;
+  int64_t weights_chunks_repeated = 0;  ///< of those sent: asked for again
 };
 
 /// Every counter with its name, in the order above.
@@ -36,6 +40,10 @@ inline constexpr BusCounterField kBusCounterFields[] = {
     {"rejected_arithmetic", &BusCounters::rejected_arithmetic},
     {"rejected_unauthenticated", &BusCounters::rejected_unauthenticated},
     {"reordered_episodes", &BusCounters::reordered_episodes},
+    {"stale_statuses", &BusCounters::stale_statuses},
+    {"crowded_statuses", &BusCounters::crowded_statuses},
+    {"weights_chunks_sent", &BusCounters::weights_chunks_sent},
+    {"weights_chunks_repeated", &BusCounters::weights_chunks_repeated},
 };
 
 inline std::map<std::string, int64_t> ToMap(const BusCounters& counters) {

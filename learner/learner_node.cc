@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 
 #include "core/clock.h"
 
@@ -20,12 +19,6 @@ constexpr int64_t kPollUs = 1'000;
 // Pacing: 8 chunks, then 0.2 ms, is complete even on Linux's default socket buffers.
 constexpr int kChunksPerBurst = 8;
 constexpr int64_t kBurstPeriodUs = 200;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-double OrNan(const std::optional<Evaluation>& evaluation) {
-  return evaluation ? evaluation->figures.average_aoi : kNan;
-}
 
 }  // namespace
 
@@ -104,14 +97,23 @@ void LearnerNode::SetFinishing(const std::string& waiting_for) {
   finishing_ = waiting_for;
 }
 
+void LearnerNode::SetWarning(const std::string& warning) {
+  const std::lock_guard lock(mutex_);
+  warning_ = warning.substr(0, kMaximumTextBytes);
+}
+
 std::optional<CommittedEpisode> LearnerNode::WaitForNext(int64_t timeout_us) {
   std::unique_lock lock(mutex_);
-  trainer_waits_ = true;
+  if (waiting_since_us_ == 0) {
+    waiting_since_us_ = clock_.now_us();
+  }
   next_is_complete_.wait_for(lock, std::chrono::microseconds(timeout_us), [this] {
     return ledger_.in_flight() > 0 && ledger_.IsComplete(ledger_.committed());
   });
   auto next = ledger_.TakeNext();
-  trainer_waits_ = !next.has_value();
+  if (next) {
+    waiting_since_us_ = 0;
+  }
   if (next && ledger_.in_flight() > 0) {
     const Order& oldest = ledger_.order(ledger_.committed());
     publisher_.Retain(oldest.current_version, oldest.target_version);
@@ -153,7 +155,7 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
     case Ledger::Arrival::kCompleted:
       break;
   }
-  roster_.Completed(run_.order_index, MonotonicMicroseconds());
+  roster_.Completed(run_.order_index, message.actor_id, clock_.now_us());
   if (run_.order_index == ledger_.committed()) {
     next_is_complete_.notify_one();
   } else if (!ledger_.IsComplete(run_.order_index - 1)) {
@@ -172,10 +174,18 @@ void LearnerNode::HandleStatus(const actor_status_t& message) {
   if (message.arithmetic_fingerprint != announcement_.arithmetic_fingerprint || message.actor_id == 0) {
     return Reject(&BusCounters::rejected_arithmetic);
   }
-  const int64_t now_us = MonotonicMicroseconds();
-  roster_.Hear(message, now_us);
+  switch (roster_.Hear(message, clock_.now_us())) {
+    case Roster::Hearing::kStale:
+      ++counters_.stale_statuses;
+      return;
+    case Roster::Hearing::kCrowdedOut:
+      ++counters_.crowded_statuses;
+      return;
+    case Roster::Hearing::kHeard:
+      break;
+  }
   for (const chunk_range_t& range : message.missing) {
-    publisher_.Request(range, now_us);
+    publisher_.Request(range, clock_.now_us());
   }
 }
 
@@ -192,12 +202,17 @@ void LearnerNode::HandleRun(const run_t& message) {
 
 void LearnerNode::Step() {
   const int64_t begin_us = MonotonicMicroseconds();
-  SendRunIfDue(begin_us);
-  SendOrders(begin_us);
-  SendWeights(begin_us);
-  SendStatusIfDue(begin_us);
-  const int64_t next_us = std::min({next_burst_us_, next_orders_us_, begin_us + kPollUs});
-  bus_->Poll(std::max<int64_t>(0, next_us - MonotonicMicroseconds()));
+  int64_t now_us = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    now_us = clock_.Look(begin_us);
+  }
+  SendRunIfDue(now_us);
+  SendOrders(now_us);
+  SendWeights(now_us);
+  SendStatusIfDue(now_us);
+  const int64_t next_us = std::min({next_burst_us_, next_orders_us_, now_us + kPollUs});
+  bus_->Poll(std::max<int64_t>(0, next_us - now_us - (MonotonicMicroseconds() - begin_us)));
 }
 
 void LearnerNode::SendRunIfDue(int64_t now_us) {
@@ -281,95 +296,23 @@ void LearnerNode::SendStatusIfDue(int64_t now_us) {
     if (const std::string news = key_mismatch_.News(); !news.empty()) {
       spdlog::warn("{}", news);
     }
+    WarnIfStarved();
   }
 }
 
-learner_status_t LearnerNode::Status(int64_t now_us) {
-  const std::lock_guard lock(mutex_);
-  constexpr int64_t kRatePeriodUs = 1'000'000;
-  if (now_us - rate_since_us_ >= kRatePeriodUs) {
-    const double seconds = static_cast<double>(now_us - rate_since_us_) * 1e-6;
-    transitions_per_s_ = static_cast<double>(progress_.transitions - rate_from_.transitions) / seconds;
-    updates_per_s_ = static_cast<double>(progress_.updates - rate_from_.updates) / seconds;
-    rate_since_us_ = now_us;
-    rate_from_ = progress_;
+void LearnerNode::WarnIfStarved() {
+  if (const auto line = starvation_warning_.Note(StarvedSeconds(), WaitingFor())) {
+    spdlog::warn("{}", *line);
   }
-  learner_status_t status{};
-  status.committed_orders = progress_.committed_orders;
-  status.episodes = progress_.episodes;
-  status.total_episodes = total_episodes_;
-  status.transitions = progress_.transitions;
-  status.updates = progress_.updates;
-  status.replay_size = progress_.replay_size;
-  status.current_version = progress_.current_version;
-  status.target_version = progress_.target_version;
-  status.orders_in_flight = static_cast<int32_t>(ledger_.in_flight());
-  status.actors = roster_.live_actors();
-  status.epsilon = progress_.epsilon;
-  status.learning_rate = progress_.learning_rate;
-  status.loss = progress_.loss;
-  status.average_aoi = OrNan(last_evaluation_);
-  status.best_average_aoi = OrNan(best_evaluation_);
-  status.arrived = last_evaluation_ && last_evaluation_->arrived ? 1 : 0;
-  status.lower_bound_average_aoi = optimum_ ? optimum_->lower_bound_average_aoi : kNan;
-  status.optimum_proved = optimum_ && optimum_->proved ? 1 : 0;
-  status.gap_percent =
-      optimum_ ? GapPercent(status.best_average_aoi, optimum_->lower_bound_average_aoi) : kNan;
-  status.staleness_updates = progress_.staleness_updates;
-  status.transitions_per_s = transitions_per_s_;
-  status.updates_per_s = updates_per_s_;
-  const BusCounters counters = CountersLocked();
-  status.received = counters.received;
-  status.duplicate = counters.duplicate;
-  status.rejected = counters.rejected;
-  status.lost = counters.lost;
-  status.reordered_episodes = counters.reordered_episodes;
-  status.waiting_for = WaitingForLocked(now_us).substr(0, 160);
-  return status;
-}
-
-std::string LearnerNode::WaitingForLocked(int64_t now_us) const {
-  if (!finishing_.empty()) {
-    return finishing_;
-  }
-  if (!trainer_waits_ || ledger_.in_flight() == 0 || ledger_.IsComplete(ledger_.committed())) {
-    return "";
-  }
-  const std::string awaited = roster_.Awaited(ledger_.committed(), now_us);
-  const std::string reason = roster_.live_actors() == 0 ? key_mismatch_.Reason() : "";
-  return reason.empty() ? awaited : fmt::format("{} ({})", awaited, reason);
-}
-
-std::string LearnerNode::WaitingFor() const {
-  const std::lock_guard lock(mutex_);
-  return WaitingForLocked(MonotonicMicroseconds());
 }
 
 void LearnerNode::AnnounceEnd() {
   constexpr int kTimes = 3;  // against loss; an actor that misses all of them notices the silence
   for (int i = 0; i < kTimes; ++i) {
     SendRun(true);
-    Publish(channels_.learner_status, Status(MonotonicMicroseconds()));
+    Publish(channels_.learner_status, Status(clock_.now_us()));
     bus_->Poll(kPollUs);
   }
-}
-
-BusCounters LearnerNode::counters() const {
-  const std::lock_guard lock(mutex_);
-  return CountersLocked();
-}
-
-BusCounters LearnerNode::CountersLocked() const {
-  BusCounters counters = counters_;
-  counters.lost += roster_.late_orders();
-  counters.rejected_unauthenticated += bus_->refused_messages();
-  counters.rejected += bus_->refused_messages();
-  return counters;
-}
-
-void LearnerNode::RestoreCounters(const BusCounters& counters) {
-  const std::lock_guard lock(mutex_);
-  counters_ = counters;
 }
 
 int64_t LearnerNode::foreign_run() const {

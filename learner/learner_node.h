@@ -15,10 +15,12 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "core/attentive_clock.h"
 #include "learner/bus_counters.h"
 #include "learner/ledger.h"
 #include "learner/optimum_search.h"
 #include "learner/roster.h"
+#include "learner/starvation_warning.h"
 #include "learner/trainer.h"
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
@@ -40,6 +42,9 @@ class LearnerNode {
   void SetOptimum(const OptimumBound& optimum);
   /// What the learner itself is busy with before it ends, for the status; in place of an actor.
   void SetFinishing(const std::string& waiting_for);
+  /// What somebody has to see to ("the last checkpoint could not be written: ..."), for the status; empty:
+  /// nothing any more.
+  void SetWarning(const std::string& warning);
   /// Waits up to `timeout_us` for the next episode by index.
   std::optional<CommittedEpisode> WaitForNext(int64_t timeout_us);
 
@@ -53,7 +58,13 @@ class LearnerNode {
   BusCounters counters() const;
   /// Goes on counting from these, of the same run's learner before.
   void RestoreCounters(const BusCounters& counters);
+  /// What the trainer waits for, for whom and in which stage; empty: nothing.
   std::string WaitingFor() const;
+  /// How long the trainer has waited for the next result; time in which this process was stopped does not
+  /// count.
+  double StarvedSeconds() const;
+  /// For people, a few lines: where the run stands, actors and their orders, networks, counters.
+  std::string StateText() const;
   /// Set as soon as another learner was heard on the same channels: the run that it announces.
   int64_t foreign_run() const;
 
@@ -70,8 +81,12 @@ class LearnerNode {
   void SendWeights(int64_t now_us);
   void SendStatusIfDue(int64_t now_us);
   learner_status_t Status(int64_t now_us);
-  std::string WaitingForLocked(int64_t now_us) const;
+  void WarnIfStarved();
+  std::string WaitingForLocked() const;
+  double StarvedSecondsLocked() const;
   BusCounters CountersLocked() const;
+  void MeasureRates(int64_t now_us);
+  void AddEvaluations(learner_status_t& status) const;
 
   template <class Message>
   void Publish(const std::string& channel, Message message);
@@ -98,11 +113,14 @@ class LearnerNode {
   std::optional<Evaluation> best_evaluation_;
   std::optional<OptimumBound> optimum_;
   std::string finishing_;
-  bool trainer_waits_ = false;
+  std::string warning_;
+  AttentiveClock clock_;          // of everything that is judged by time here
+  int64_t waiting_since_us_ = 0;  // the trainer, for a result; 0: it does not wait
   int64_t foreign_run_ = 0;
   bool announced_ = false;  // this run, by this node
 
   // The network thread's own.
+  StarvationWarning starvation_warning_;
   std::vector<std::byte> bytes_;
   Episode run_;
   int64_t next_run_us_ = 0;

@@ -9,6 +9,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/state_signal.h"
 #include "core/stop_signal.h"
 
 namespace fresco {
@@ -87,6 +88,9 @@ void LearnerProcess::Serve(std::stop_token stop) {
   try {
     while (!stop.stop_requested()) {
       node_.Step();
+      if (StateSignal::TakeRequest()) {
+        spdlog::info("{}", node_.StateText());
+      }
     }
     node_.AnnounceEnd();
   } catch (...) {
@@ -117,7 +121,7 @@ void LearnerProcess::BeginTraining() {
 void LearnerProcess::Train() {
   constexpr int64_t kWaitUs = 200'000;
   next_checkpoint_us_ = MonotonicMicroseconds();
-  while (!trainer_.finished() && !StopSignal::Requested()) {
+  while (!trainer_.finished() && !StopSignal::Requested() && !GivesUp()) {
     WriteCheckpointIfDue();
     if (const auto next = node_.WaitForNext(kWaitUs)) {
       trainer_.Commit(next->order, next->episode);
@@ -129,6 +133,19 @@ void LearnerProcess::Train() {
     WriteCheckpoint();
   }
   Report();
+}
+
+/// Whether it has waited for a result for longer than anybody should.
+bool LearnerProcess::GivesUp() const {
+  const double patience_s = experiment_.run().patience_s();
+  const bool starved = patience_s > 0 && node_.StarvedSeconds() >= patience_s;
+  if (starved) {
+    spdlog::error(
+        "giving up: {:.0f} s without a result (run.patience_s), waiting for {}; go on with: train --resume "
+        "{}",
+        patience_s, node_.WaitingFor(), options_.folder.string());
+  }
+  return starved;
 }
 
 void LearnerProcess::WriteCheckpointIfDue() {
@@ -171,6 +188,7 @@ void LearnerProcess::Report() {
   if (const auto bound = optimum_->bound()) {
     node_.SetOptimum(*bound);
   }
+  node_.SetWarning(folder_.problem());
 }
 
 double LearnerProcess::WallSeconds() const {

@@ -37,6 +37,7 @@ class LearnerProcess {
   void RefuseTakenBus();
   void Serve(std::stop_token stop);
   void Train();
+  bool GivesUp() const;
   void BeginTraining();
   void WriteCheckpointIfDue();
   void WriteCheckpoint();

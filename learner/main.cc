@@ -9,6 +9,7 @@
 #include "bus/authenticated_bus.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
+#include "core/state_signal.h"
 #include "core/stop_signal.h"
 #include "core/version.h"
 #include "learner/learner_process.h"
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("fresco-learner"));
   spdlog::set_pattern("%H:%M:%S %n[%P] %l: %v");
   fresco::StopSignal::Install();
+  fresco::StateSignal::Install();
   try {
     return fresco::Main(argc, argv);
   } catch (const fresco::Error& error) {

@@ -1,8 +1,7 @@
 #include "learner/roster.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <utility>
 
 namespace fresco {
 namespace {
@@ -13,31 +12,64 @@ constexpr int64_t kAnnounceAgainUs = 60'000;  // an order whose result is not he
 constexpr int64_t kSoonestLateUs = 150'000;
 constexpr double kLateFactor = 4;  // late: several times the usual latency
 constexpr int kLongestPatience = 8;
+constexpr int32_t kLargestCapacity = 4096;
 
 }  // namespace
 
-void Roster::Hear(const actor_status_t& status, int64_t now_us) {
+Roster::Hearing Roster::Hear(const actor_status_t& status, int64_t now_us) {
+  if (!actors_.contains(status.actor_id) && !MakeRoom(now_us)) {
+    return Hearing::kCrowdedOut;
+  }
   ActorRecord& actor = actors_[status.actor_id];
+  if (status.sequence <= actor.sequence) {
+    return Hearing::kStale;
+  }
   actor.last_heard_us = now_us;
-  actor.capacity = std::max(1, status.capacity);
+  actor.sequence = status.sequence;
+  actor.capacity = std::clamp(status.capacity, 1, kLargestCapacity);
   actor.pid = status.pid;
-  actor.host = status.host;
+  actor.host = status.host.substr(0, kMaximumHostBytes);
+  actor.oldest_open_order = status.oldest_open_order;
   actor.transitions_per_s = status.transitions_per_s;
+  actor.missing = status.missing;
+  return Hearing::kHeard;
 }
 
-void Roster::Completed(int64_t index, int64_t now_us) {
+/// Who is gone is remembered, so that its old statuses stay old; but not at the cost of who comes.
+bool Roster::MakeRoom(int64_t now_us) {
+  if (actors_.size() < kMaximumActors) {
+    return true;
+  }
+  const auto longest_gone = std::min_element(
+      actors_.begin(), actors_.end(),
+      [](const auto& a, const auto& b) { return a.second.last_heard_us < b.second.last_heard_us; });
+  const bool gone = now_us - longest_gone->second.last_heard_us > kGoneUs;
+  if (gone) {
+    actors_.erase(longest_gone);
+  }
+  return gone;
+}
+
+void Roster::Completed(int64_t index, int64_t actor_id, int64_t now_us) {
+  if (const auto actor = actors_.find(actor_id); actor != actors_.end()) {
+    actor->second.late_orders = 0;
+  }
   const auto found = assignments_.find(index);
   if (found == assignments_.end()) {
     return;
   }
-  constexpr double kShare = 0.05;
-  latency_us_ += kShare * (static_cast<double>(now_us - found->second.assigned_us) - latency_us_);
-  --open_orders_[found->second.actor_id];
+  if (found->second.actor_id != 0) {
+    constexpr double kShare = 0.05;
+    latency_us_ += kShare * (static_cast<double>(now_us - found->second.assigned_us) - latency_us_);
+    Release(found->second.actor_id);
+  }
   assignments_.erase(found);
 }
 
-void Roster::ForgetGoneActors(int64_t now_us) {
-  std::erase_if(actors_, [&](const auto& entry) { return now_us - entry.second.last_heard_us > kGoneUs; });
+int Roster::live_actors(int64_t now_us) const {
+  return static_cast<int>(std::count_if(actors_.begin(), actors_.end(), [&](const auto& entry) {
+    return now_us - entry.second.last_heard_us <= kGoneUs;
+  }));
 }
 
 bool Roster::IsSilent(int64_t actor_id, int64_t now_us) const {
@@ -45,13 +77,23 @@ bool Roster::IsSilent(int64_t actor_id, int64_t now_us) const {
   return found == actors_.end() || now_us - found->second.last_heard_us > kSilentUs;
 }
 
+bool Roster::AllSilent(int64_t now_us) const {
+  return std::all_of(actors_.begin(), actors_.end(),
+                     [&](const auto& entry) { return now_us - entry.second.last_heard_us > kSilentUs; });
+}
+
 int64_t Roster::Choose(int64_t except, int64_t now_us) const {
   int64_t best = 0;
-  double best_load = 0;
+  std::pair<double, int64_t> best_load;
   for (const auto& [id, actor] : actors_) {
+    if (id == except || now_us - actor.last_heard_us > kSilentUs) {
+      continue;
+    }
     const auto open = open_orders_.find(id);
-    const double load = (open == open_orders_.end() ? 0.0 : open->second) / actor.capacity;
-    if (id != except && !IsSilent(id, now_us) && (best == 0 || load < best_load)) {
+    // Who owes results gets less, but is never left out: it is slow, or its way to us is.
+    const int orders = (open == open_orders_.end() ? 0 : open->second) + actor.late_orders;
+    const std::pair load(static_cast<double>(orders) / actor.capacity, actor.last_assigned);
+    if (best == 0 || load < best_load) {
       best = id;
       best_load = load;
     }
@@ -66,29 +108,46 @@ bool Roster::IsLate(const Assignment& assignment, int64_t now_us) const {
              patience_us * std::min(1 + assignment.attempt, kLongestPatience);
 }
 
+void Roster::Assign(Assignment& assignment, int64_t actor_id, int64_t now_us) {
+  if (assignment.actor_id != 0) {
+    Release(assignment.actor_id);
+    if (!IsSilent(assignment.actor_id, now_us)) {
+      ActorRecord& actor = actors_.at(assignment.actor_id);
+      actor.late_orders = std::min(actor.late_orders + 1, actor.capacity);
+    }
+    ++assignment.attempt;
+    ++late_orders_;
+  }
+  ++open_orders_[actor_id];
+  actors_.at(actor_id).last_assigned = ++assigned_;
+  assignment.actor_id = actor_id;
+  assignment.assigned_us = now_us;
+  assignment.announced_us = 0;
+}
+
+void Roster::Release(int64_t actor_id) {
+  const auto open = open_orders_.find(actor_id);
+  if (--open->second == 0) {
+    open_orders_.erase(open);
+  }
+}
+
 std::vector<order_t> Roster::DueOrders(const Ledger& ledger, int64_t now_us) {
-  ForgetGoneActors(now_us);
   std::vector<order_t> due;
+  if (AllSilent(now_us)) {
+    return due;
+  }
   for (int64_t index = ledger.committed(); index < ledger.committed() + ledger.in_flight(); ++index) {
     if (ledger.IsComplete(index)) {
       continue;
     }
-    const auto [found, is_new] = assignments_.try_emplace(index);
-    Assignment& assignment = found->second;
+    Assignment& assignment = assignments_[index];
     if (assignment.actor_id == 0 || IsLate(assignment, now_us)) {
       const int64_t chosen = Choose(assignment.actor_id, now_us);
       if (chosen == 0) {
         continue;
       }
-      if (assignment.actor_id != 0) {
-        --open_orders_[assignment.actor_id];
-        ++assignment.attempt;
-        ++late_orders_;
-      }
-      ++open_orders_[chosen];
-      assignment.actor_id = chosen;
-      assignment.assigned_us = now_us;
-      assignment.announced_us = 0;
+      Assign(assignment, chosen, now_us);
     }
     if (assignment.announced_us == 0 || now_us - assignment.announced_us >= kAnnounceAgainUs) {
       assignment.announced_us = now_us;
@@ -96,19 +155,6 @@ std::vector<order_t> Roster::DueOrders(const Ledger& ledger, int64_t now_us) {
     }
   }
   return due;
-}
-
-std::string Roster::Awaited(int64_t index, int64_t now_us) const {
-  if (actors_.empty()) {
-    return "an actor to join";
-  }
-  const auto found = assignments_.find(index);
-  if (found == assignments_.end() || IsSilent(found->second.actor_id, now_us)) {
-    return fmt::format("an actor for order {}", index);
-  }
-  const ActorRecord& actor = actors_.at(found->second.actor_id);
-  return fmt::format("{} (pid {}): order {} for {:.1f} s", actor.host, actor.pid, index,
-                     static_cast<double>(now_us - found->second.assigned_us) * 1e-6);
 }
 
 }  // namespace fresco

@@ -1,5 +1,7 @@
 #include "learner/weight_publisher.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/crc32c.h"
@@ -66,6 +68,16 @@ std::optional<std::pair<NetworkKind, weights_t>> WeightPublisher::Next(int64_t n
     return std::pair(key.second, WeightsChunk(values, version.crc32c, key.first, version.next));
   }
   return std::nullopt;
+}
+
+std::string WeightPublisher::Offered() const {
+  std::string text;
+  for (const auto& [key, version] : versions_) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
+                        key.second == NetworkKind::kCurrent ? "current" : "target", key.first);
+    text += version.due_count > 0 ? fmt::format(" ({} chunks due)", version.due_count) : "";
+  }
+  return text.empty() ? "none" : text;
 }
 
 }  // namespace fresco

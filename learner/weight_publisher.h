@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ class WeightPublisher {
 
   /// The next due chunk, without its identity, and of which network; none: nothing is due.
   std::optional<std::pair<NetworkKind, weights_t>> Next(int64_t now_us);
+
+  /// For people: which versions are on offer, and how many of their chunks are due.
+  std::string Offered() const;
 
   /// Chunks sent, and those of them that were asked for.
   int64_t sent_chunks() const { return sent_chunks_; }

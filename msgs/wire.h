@@ -20,7 +20,7 @@
 namespace fresco {
 
 /// Raised with every change to a .lcm file.
-inline constexpr int32_t kProtocolVersion = 2;
+inline constexpr int32_t kProtocolVersion = 3;
 
 /// Every message fits one Ethernet frame: LCM loses a whole message with one lost fragment.
 inline constexpr size_t kMaximumMessageBytes = 1350;
@@ -37,6 +37,9 @@ inline constexpr int kMaximumParts = 1024;
 inline constexpr int kMaximumHeldVersions = 32;
 inline constexpr int kMaximumMissingRanges = 32;
 inline constexpr int kMaximumSensors = 250;
+inline constexpr size_t kMaximumHostBytes = 64;
+/// Of what a learner status says to people, in each of its two texts.
+inline constexpr size_t kMaximumTextBytes = 240;
 inline constexpr int kValuesPerChunk = 308;
 
 /// Which run a message belongs to: its run_id and the hash of the run's configuration.

@@ -46,13 +46,15 @@ TableRow FiguresRow(const std::string& name, const Json& figures, const Json& le
 std::string ProgressLine(const learner_status_t& status) {
   const double percent = 100.0 * static_cast<double>(status.episodes) /
                          static_cast<double>(std::max<int64_t>(1, status.total_episodes));
-  return fmt::format(
-      "{:3.0f}% | {} of {} episodes | {} updates | epsilon {:.3f} | greedy AoI {} | {:.0f} transitions/s | "
-      "{:.0f} updates/s | {} actors{}",
-      percent, status.episodes, status.total_episodes, status.updates, status.epsilon, GreedyAoi(status),
-      status.transitions_per_s, status.updates_per_s, status.actors,
-      status.waiting_for.empty() ? " | actors wait for the learner"
-                                 : " | learner waits for " + status.waiting_for);
+  const std::string warning = status.warning.empty() ? "" : "WARNING: " + status.warning + " | ";
+  return warning + fmt::format(
+                       "{:3.0f}% | {} of {} episodes | {} updates | epsilon {:.3f} | greedy AoI {} | {:.0f} "
+                       "transitions/s | "
+                       "{:.0f} updates/s | {} actors{}",
+                       percent, status.episodes, status.total_episodes, status.updates, status.epsilon,
+                       GreedyAoi(status), status.transitions_per_s, status.updates_per_s, status.actors,
+                       status.waiting_for.empty() ? " | actors wait for the learner"
+                                                  : " | learner waits for " + status.waiting_for);
 }
 
 std::vector<TableRow> PolicyRows(const std::string& summary_json) {

@@ -8,8 +8,8 @@
 
 namespace fresco {
 
-/// One line: episodes, updates, epsilon, greedy average AoI and its gap to the optimum, rates, who waits for
-/// whom.
+/// One line: first the learner's warning, if there is one, which no narrow terminal may cut off; episodes,
+/// updates, epsilon, greedy average AoI and its gap to the optimum, rates, who waits for whom.
 std::string ProgressLine(const learner_status_t& status);
 
 /// A heading and a row for this run, each baseline and the exact optimum (or the lower bound on it), from

@@ -65,7 +65,7 @@ std::map<int64_t, Episode> FlyTogether(const World& world, const Experiment& exp
     for (int i = 0; i < per_slot && next != plans.end() && flyer.HasRoom(); ++i, ++next) {
       flyer.Start(next->order, next->current, next->target);
     }
-    flyer.Step([&](const Episode& episode) { flown.emplace(episode.order_index, episode); });
+    flyer.Step([&](const Order&, const Episode& episode) { flown.emplace(episode.order_index, episode); });
   }
   return flown;
 }

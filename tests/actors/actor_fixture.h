@@ -16,9 +16,10 @@ class ActorTest : public ::testing::Test {
   explicit ActorTest(const ActorOptions& options = OptionsOfTheActor());
 
   static ActorOptions OptionsOfTheActor();
+  ActorOptions WithClock(ActorOptions options) const;
 
-  /// One step of the actor `later_us` after the one before (its clock runs ahead of the real one), and
-  /// everything that is on the bus before and after it. Returns what the actor's step does.
+  /// One step of the actor `later_us` after the one before, by the test's clock, and everything that is on
+  /// the bus before and after it. Returns what the actor's step does.
   bool Step(int64_t later_us = 1000);
 
   /// Steps until the actor has had nothing to fly for some steps.
@@ -49,8 +50,8 @@ class ActorTest : public ::testing::Test {
   SharedParameters target_ = SampleNetwork(experiment_, 2);
   std::unique_ptr<Bus> bus_ = OpenLcmBus("memq://");
   LearnerDouble learner_{*bus_, channels_, experiment_, kRunId};
-  Actor actor_;
   int64_t now_us_ = 0;
+  Actor actor_;
 };
 
 }  // namespace fresco

@@ -1,4 +1,6 @@
 // What an actor flies and sends, and what it forgets.
+#include <limits>
+
 #include "tests/actors/actor_fixture.h"
 
 namespace fresco {
@@ -73,28 +75,91 @@ TEST_F(ActorOrders, OfNoRunAreIgnored) {
   EXPECT_TRUE(learner_.episodes().empty());
 }
 
-TEST_F(ActorOrders, OfAHigherAttemptHaveWhatWasFlownSentAgain) {
+TEST_F(ActorOrders, ThatAreAnnouncedAgainHaveWhatWasFlownSentAgainEveryFiftyMilliseconds) {
   BeginRun();
   learner_.SendOrders(Orders(0, 2));
   FlyAll();
-  for (const int32_t attempt : {0, 1, 1, 0, 3, 2, 3}) {
-    learner_.SendOrders({OrderTo(kActorId, 0, attempt)});
-    Step();
+  Step(50'000);
+  for (int i = 0; i < 10; ++i) {  // with the attempt it had: a resumed learner counts anew
+    learner_.SendOrders({OrderTo(kActorId, 0)});
+    Step(10'000);
   }
-  ExpectEpisodes(0, {0, 0, 0, 1});  // again for attempts 1 and 3
+  ExpectEpisodes(0, {0, 0, 0, 1});
   EXPECT_EQ(NextStatus().resent_episodes, 2);
   EXPECT_EQ(NextStatus().episodes, 2);
 }
 
-TEST_F(ActorOrders, OfAHigherAttemptThatArriveInFlightAreAnsweredByThatFlight) {
+TEST_F(ActorOrders, ThatAreAnnouncedAgainInFlightAreAnsweredByThatFlight) {
   BeginRun();
   learner_.SendOrders(Orders(0, 1));
   Step();
   learner_.SendOrders({OrderTo(kActorId, 0, 1)});
   FlyAll();
-  learner_.SendOrders({OrderTo(kActorId, 0, 1)});
+  learner_.SendOrders({OrderTo(kActorId, 0, 1)});  // the result is on its way
   FlyAll();
   ExpectEpisodes(0, {0});
+}
+
+TEST_F(ActorOrders, OfAResumedLearnerAreAnsweredWithWhatIsStillHereAndFlownAgainOtherwise) {
+  BeginRun();
+  learner_.SendOrders(Orders(0, 5));
+  FlyAll();
+  learner_.SendOrders({}, 3);
+  Step(50'000);
+  learner_.SendOrders(Orders(0, 5), 0);  // its checkpoint was at 0
+  FlyAll();
+  ExpectEpisodes(5, {0, 1, 2, 3, 4});
+  EXPECT_EQ(NextStatus().resent_episodes, 2);
+  EXPECT_EQ(NextStatus().episodes, 8);
+}
+
+TEST_F(ActorOrders, ThatAreNotTheOnesFlownUnderTheirIndexAreFlown) {
+  BeginRun();
+  order_t other = OrderTo(kActorId, 0);
+  other.epsilon = 1;
+  learner_.SendOrders({other});
+  FlyAll();
+  learner_.SendOrders(Orders(0, 1));
+  FlyAll();
+  ExpectEpisodes(1, {0});
+}
+
+TEST_F(ActorOrders, OutsideOfTheWindowAreRefused) {
+  BeginRun();  // the window is 16
+  learner_.SendOrders({OrderTo(kActorId, 15), OrderTo(kActorId, 16), OrderTo(kActorId, 4000)});
+  learner_.SendOrders({OrderTo(kActorId, 1)}, -1);
+  learner_.SendOrders({OrderTo(kActorId, 1)}, std::numeric_limits<int64_t>::max());
+  FlyAll();
+  ExpectEpisodes(0, {15});
+  EXPECT_EQ(actor_.totals().rejected_messages, 4);
+}
+
+TEST_F(ActorOrders, ThatWaitedAreForgottenWhereTheWindowHasGoneBack) {
+  BeginRun();
+  std::vector<order_t> orders = Orders(20, 4);
+  for (order_t& order : orders) {
+    order.current_version = 1;  // which is not here
+  }
+  learner_.SendOrders(orders, 20);
+  Step();
+  actor_status_t status = NextStatus();
+  EXPECT_EQ(status.open_orders, 4);
+  EXPECT_EQ(status.oldest_open_order, 20);
+  learner_.SendOrders({}, 0);
+  Step();
+  status = NextStatus();
+  EXPECT_EQ(status.open_orders, 0);
+  EXPECT_EQ(status.oldest_open_order, -1);
+  EXPECT_EQ(status.missing_count, 0);
+}
+
+TEST_F(ActorOrders, OfWhichTheOldestIsOpenAreReported) {
+  BeginRun();
+  learner_.SendOrders(Orders(2, 9), 0);  // five fly, four wait
+  Step();
+  EXPECT_EQ(NextStatus().oldest_open_order, 2);
+  learner_.SendOrders({}, 5);  // others were quicker
+  EXPECT_EQ(NextStatus().oldest_open_order, 5);
 }
 
 TEST_F(ActorOrders, ThatAreCommittedAreNotFlown) {
@@ -125,7 +190,8 @@ TEST_F(ActorOrders, ThatWereFlownAreForgottenOnceCommittedAndFlownAgainWithTheSa
   learner_.SendOrders(Orders(0, 3));
   FlyAll();
   learner_.SendOrders({}, 2);
-  learner_.SendOrders({OrderTo(kActorId, 0, 1), OrderTo(kActorId, 2, 1)}, 2);
+  Step(50'000);
+  learner_.SendOrders({OrderTo(kActorId, 0), OrderTo(kActorId, 2)}, 2);
   FlyAll();
   ExpectEpisodes(3, {2});  // order 2 was kept and is sent again, order 0 is done
   learner_.SendOrders({OrderTo(kActorId, 0, 0), OrderTo(kActorId, 1, 0)}, 0);  // a late packet

@@ -74,11 +74,33 @@ TEST_F(ActorWeights, ThatAreMissingAreAskedForMoreOftenThanAStatusIsDue) {
   EXPECT_EQ(learner_.statuses().back().missing_count, 2);
 }
 
-TEST_F(ActorWeights, ThatNoOrderNamesAreNotAskedFor) {
+TEST_F(ActorWeights, ThatAreOnTheirWayAreAskedForBeforeAnOrderNamesThemButNotForEver) {
   BeginRun();
   learner_.SendVersion(kCurrent4, *current_, {1});
   Step();
-  EXPECT_EQ(NextStatus().missing_count, 0);
+  EXPECT_EQ(Plain(NextStatus().missing), (Ranges{{0, 4, 1, 1}}));
+  for (int i = 0; i < 50; ++i) {
+    Step(10'000);
+  }
+  const size_t before = learner_.statuses().size();
+  for (int i = 0; i < 100; ++i) {
+    Step(10'000);
+  }
+  EXPECT_LE(learner_.statuses().size() - before, 11u);  // no more often than a status is due
+  EXPECT_EQ(learner_.statuses().back().missing_count, 0);
+}
+
+TEST_F(ActorWeights, ThatTookLongToArriveAreReportedWithTheirTime) {
+  BeginRun();
+  EXPECT_EQ(NextStatus().weights_latency_ms, 0);
+  learner_.SendVersion(kCurrent4, *current_, {1});
+  Step(2'000);
+  Step(20'000);
+  learner_.SendVersion(kCurrent4, *current_);
+  Step(1'000);
+  EXPECT_FLOAT_EQ(NextStatus().weights_latency_ms, 22);
+  EXPECT_NE(actor_.Description().find("3 versions completed, the slowest within 22.0 ms"), std::string::npos)
+      << actor_.Description();
 }
 
 TEST_F(ActorWeights, OfAnotherRunAreCountedAndIgnored) {

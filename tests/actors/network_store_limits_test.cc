@@ -42,8 +42,8 @@ TEST(NetworkStore, RejectsSizesAndOffsetsThatAreNotThoseOfAChunk) {
     lies[i](chunk);
     EXPECT_EQ(store.Add(NetworkKind::kCurrent, chunk, 0), Arrival::kRejected) << i;
   }
-  store.MissingRanges(0, kQuietUs);
-  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs, kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
+  store.MissingRanges(0);
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
 }
 
 TEST(NetworkStore, ReportsExactlyTheGapsAndOnlyAfterQuietTime) {
@@ -53,37 +53,94 @@ TEST(NetworkStore, ReportsExactlyTheGapsAndOnlyAfterQuietTime) {
   for (const size_t chunk : {1u, 2u, 5u, 8u}) {
     store.Add(NetworkKind::kCurrent, chunks[chunk], 1000);
   }
-  EXPECT_TRUE(store.MissingRanges(1000 + kQuietUs - 1, kQuietUs).empty());
-  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietUs, kQuietUs)),
+  EXPECT_TRUE(store.MissingRanges(1000 + kQuietUs - 1).empty());
+  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietUs)),
             (Ranges{{0, 7, 0, 1}, {0, 7, 3, 2}, {0, 7, 6, 2}, {0, 7, 9, 1}}));
   store.Add(NetworkKind::kCurrent, chunks[4], 9000);
-  EXPECT_TRUE(store.MissingRanges(9000 + kQuietUs - 1, kQuietUs).empty());  // they are still coming
-  EXPECT_EQ(Plain(store.MissingRanges(9000 + kQuietUs, kQuietUs)),
+  EXPECT_TRUE(store.MissingRanges(9000 + kQuietUs - 1).empty());  // they are still coming
+  EXPECT_EQ(Plain(store.MissingRanges(9000 + kQuietUs)),
             (Ranges{{0, 7, 0, 1}, {0, 7, 3, 1}, {0, 7, 6, 2}, {0, 7, 9, 1}}));
   Complete(store, kCurrent7, kParameters, 9000);
-  EXPECT_TRUE(store.MissingRanges(100'000, kQuietUs).empty());
+  EXPECT_TRUE(store.MissingRanges(100'000).empty());
 }
 
 TEST(NetworkStore, AsksForAllOfAVersionOfWhichNothingCameSinceItWasWanted) {
   NetworkStore store(kParameters);
-  EXPECT_TRUE(store.MissingRanges(0, kQuietUs).empty());
+  EXPECT_TRUE(store.MissingRanges(0).empty());
   store.SetWanted({kCurrent7, kTarget2});
-  EXPECT_TRUE(store.MissingRanges(10'000, kQuietUs).empty());
-  EXPECT_TRUE(store.MissingRanges(10'000 + kQuietUs - 1, kQuietUs).empty());
-  EXPECT_EQ(Plain(store.MissingRanges(10'000 + kQuietUs, kQuietUs)),
-            (Ranges{{0, 7, 0, kChunks}, {1, 2, 0, kChunks}}));
+  EXPECT_TRUE(store.MissingRanges(10'000).empty());
+  EXPECT_TRUE(store.MissingRanges(10'000 + kQuietUs - 1).empty());
+  EXPECT_EQ(Plain(store.MissingRanges(10'000 + kQuietUs)), (Ranges{{0, 7, 0, kChunks}, {1, 2, 0, kChunks}}));
   store.SetWanted({kTarget2});
-  EXPECT_EQ(Plain(store.MissingRanges(20'000, kQuietUs)), (Ranges{{1, 2, 0, kChunks}}));
+  EXPECT_EQ(Plain(store.MissingRanges(20'000)), (Ranges{{1, 2, 0, kChunks}}));
   store.SetWanted({kCurrent7});  // wanted again: quiet time begins again
-  EXPECT_TRUE(store.MissingRanges(30'000, kQuietUs).empty());
+  EXPECT_TRUE(store.MissingRanges(30'000).empty());
 }
 
-TEST(NetworkStore, DoesNotAskForWhatNobodyWants) {
+TEST(NetworkStore, AsksForTheRestOfAVersionThatIsOnItsWayBeforeAnOrderNamesIt) {
   NetworkStore store(kParameters);
-  store.Add(NetworkKind::kCurrent, ChunksOf(7, kParameters)[0], 0);
+  store.Add(NetworkKind::kCurrent, ChunksOf(7, kParameters)[0], 1000);
+  EXPECT_TRUE(store.MissingRanges(1000 + kQuietUs - 1).empty());
+  const Ranges rest = {{0, 7, 1, kChunks - 1}};
+  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietUs)), rest);
+  EXPECT_EQ(Plain(store.MissingRanges(1000 + 499'999)), rest);
+  EXPECT_TRUE(store.MissingRanges(1000 + 500'000).empty());  // the learner has dropped it
+  store.SetWanted({kCurrent7});
+  EXPECT_EQ(Plain(store.MissingRanges(1000 + 500'000)), rest);
+}
+
+TEST(NetworkStore, AsksForNoVersionThatIsOlderThanTheOnesWantedOfLate) {
+  NetworkStore store(kParameters);
+  store.SetWanted({kCurrent7, {NetworkKind::kCurrent, 9}});
+  store.SetWanted({});
+  for (const int32_t version : {6, 7, 8}) {
+    store.Add(NetworkKind::kCurrent, ChunksOf(version, kParameters)[0], 0);
+  }
+  store.Add(NetworkKind::kTarget, ChunksOf(2, kParameters)[0], 0);  // of targets none was wanted
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs)),
+            (Ranges{{0, 7, 1, kChunks - 1}, {0, 8, 1, kChunks - 1}, {1, 2, 1, kChunks - 1}}));
+}
+
+TEST(NetworkStore, AsksFirstForWhatOrdersName) {
+  NetworkStore store(kLarge);
+  const auto chunks = ChunksOf(7, kLarge);
+  for (size_t chunk = 0; chunk < chunks.size(); chunk += 2) {
+    store.Add(NetworkKind::kCurrent, chunks[chunk], 0);
+  }
   store.SetWanted({kTarget2});
-  store.MissingRanges(1'000'000, kQuietUs);
-  EXPECT_EQ(Plain(store.MissingRanges(2'000'000, kQuietUs)), (Ranges{{1, 2, 0, kChunks}}));
+  store.MissingRanges(0);
+  const Ranges ranges = Plain(store.MissingRanges(kQuietUs));
+  EXPECT_EQ(ranges.size(), static_cast<size_t>(kMaximumMissingRanges));
+  EXPECT_EQ(ranges.front(), std::tuple(1, 2, 0, kLarge / kValuesPerChunk));
+}
+
+TEST(NetworkStore, IsNotCrowdedByVersionNumbersThatAreLies) {
+  NetworkStore store(kParameters);
+  constexpr int32_t kLargest = std::numeric_limits<int32_t>::max();
+  for (int32_t lie = 0; lie < 1000; ++lie) {
+    store.Add(NetworkKind::kCurrent, ChunksOf(kLargest - lie, kParameters)[0], lie);
+  }
+  Complete(store, kCurrent7, kParameters, 2000);
+  Complete(store, {NetworkKind::kCurrent, 8}, kParameters, 3000);
+  EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+  EXPECT_LE(store.MissingRanges(100'000).size(), 7u);
+}
+
+TEST(NetworkStore, ForgetsAllThatWasWantedOnceRoomIsNeeded) {
+  NetworkStore store(kParameters);
+  std::set<NetworkVersion> wanted;
+  for (int32_t version = 0; version < 30; ++version) {
+    wanted.emplace(NetworkKind::kCurrent, version);
+  }
+  store.SetWanted(wanted);
+  for (const NetworkVersion& version : wanted) {
+    Complete(store, version, kParameters);
+  }
+  EXPECT_EQ(store.HeldVersions().size(), 30u);
+  store.SetWanted({});
+  Complete(store, {NetworkKind::kCurrent, 30}, kParameters, 1);
+  EXPECT_EQ(store.HeldVersions().size(), 8u);
+  EXPECT_TRUE(Holds(store, {NetworkKind::kCurrent, 30}, kParameters));
 }
 
 TEST(NetworkStore, ReportsAtMostAsManyRangesAsAMessageTakes) {
@@ -97,8 +154,8 @@ TEST(NetworkStore, ReportsAtMostAsManyRangesAsAMessageTakes) {
   for (size_t chunk = 0; chunk < chunks.size(); chunk += 2) {
     store.Add(NetworkKind::kCurrent, chunks[chunk], 0);
   }
-  store.MissingRanges(0, kQuietUs);
-  const Ranges ranges = Plain(store.MissingRanges(kQuietUs, kQuietUs));
+  store.MissingRanges(0);
+  const Ranges ranges = Plain(store.MissingRanges(kQuietUs));
   ASSERT_EQ(ranges.size(), static_cast<size_t>(kMaximumMissingRanges));
   for (int i = 0; i < kMaximumMissingRanges; ++i) {
     EXPECT_EQ(ranges[static_cast<size_t>(i)], std::tuple(0, 7, 2 * i + 1, 1));
@@ -122,7 +179,7 @@ TEST(NetworkStore, BoundsWhatItKeepsOfHundredsOfVersionsAndKeepsTheWantedOnes) {
   EXPECT_GE(kept, 1);
   EXPECT_LE(kept, 16);
   EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
-  EXPECT_EQ(Plain(store.MissingRanges(1'000'000, kQuietUs)), (Ranges{{1, 2, 1, kChunks - 1}}));
+  EXPECT_EQ(Plain(store.MissingRanges(1'000'000)), (Ranges{{1, 2, 1, kChunks - 1}}));
 }
 
 TEST(NetworkStore, ReportsTheVersionsItHoldsTheNewestOfEachNetworkFirst) {

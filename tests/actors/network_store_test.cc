@@ -75,23 +75,47 @@ TEST(NetworkStore, RejectsAVersionWhoseCrcDoesNotHoldAndAsksForAllOfIt) {
   }
   EXPECT_EQ(store.Find(kCurrent7), nullptr);
   EXPECT_TRUE(store.HeldVersions().empty());
-  store.MissingRanges(0, kQuietUs);
-  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs, kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
-  Complete(store, kCurrent7, kParameters, kQuietUs);
+  store.MissingRanges(0);
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
+  Complete(store, kCurrent7, kParameters);
   EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
 }
 
-TEST(NetworkStore, RejectsAChunkOfAnotherCrcThanItsVersions) {
+TEST(NetworkStore, BeginsAnIncompleteVersionAnewWithAChunkOfAnotherCrc) {
   NetworkStore store(kParameters);
-  auto chunks = ChunksOf(7, kParameters);
-  weights_t other = chunks[1];
-  other.crc32c ^= 1;
-  store.Add(NetworkKind::kCurrent, chunks[0], 0);
-  EXPECT_EQ(store.Add(NetworkKind::kCurrent, other, 0), Arrival::kRejected);
+  weights_t lie = ChunksOf(7, kParameters)[1];
+  lie.crc32c ^= 1;
+  lie.values[0] += 1;
+  EXPECT_EQ(store.Add(NetworkKind::kCurrent, lie, 0), Arrival::kAccepted);
+  const auto chunks = ChunksOf(7, kParameters);
+  EXPECT_EQ(store.Add(NetworkKind::kCurrent, chunks[0], 0), Arrival::kRestarted);
+  EXPECT_EQ(store.MissingChunks(kCurrent7), kChunks - 1);
   Complete(store, kCurrent7, kParameters);
   EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
-  EXPECT_EQ(store.Add(NetworkKind::kCurrent, other, 0), Arrival::kRejected);
+}
+
+TEST(NetworkStore, KeepsACompleteVersionAgainstChunksOfAnotherCrc) {
+  NetworkStore store(kParameters);
+  Complete(store, kCurrent7, kParameters);
+  weights_t lie = ChunksOf(7, kParameters)[1];
+  lie.crc32c ^= 1;
+  EXPECT_EQ(store.Add(NetworkKind::kCurrent, lie, 0), Arrival::kRejected);
   EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
+  EXPECT_EQ(store.MissingChunks(kCurrent7), 0);
+}
+
+TEST(NetworkStore, MeasuresTheLongestTimeFromAFirstChunkToCompletion) {
+  NetworkStore store(kParameters);
+  EXPECT_EQ(store.longest_assembly_us(), 0);
+  const auto chunks = ChunksOf(7, kParameters);
+  for (size_t chunk = 0; chunk < chunks.size(); ++chunk) {
+    store.Add(NetworkKind::kCurrent, chunks[chunk], 5000 + 100 * static_cast<int64_t>(chunk));
+  }
+  EXPECT_EQ(store.longest_assembly_us(), 900);
+  Complete(store, {NetworkKind::kCurrent, 8}, kParameters, 50'000);  // all at once
+  store.Add(NetworkKind::kCurrent, ChunksOf(9, kParameters)[0], 0);  // never complete
+  EXPECT_EQ(store.longest_assembly_us(), 900);
+  EXPECT_EQ(store.completed_versions(), 2);
 }
 
 TEST(NetworkStore, HandsOutParametersThatOutliveTheirVersion) {

@@ -10,8 +10,6 @@
 
 namespace fresco {
 
-inline constexpr int64_t kQuietUs = 4000;
-
 inline std::vector<float> ValuesOf(int32_t version, int64_t count) {
   RandomStream stream(2026, RandomPurpose::kTest, 2, static_cast<uint32_t>(version));
   return RandomFloats(stream, static_cast<size_t>(count), 1);

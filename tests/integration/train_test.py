@@ -47,6 +47,28 @@ class Train(FrescoTest):
         self.assertGreater(killed, 0)
         self.assertEqual(json.loads(output)["weights_crc32c"], undisturbed["weights_crc32c"])
 
+    def test_tells_its_state_on_sigusr1_and_goes_on_unharmed(self):
+        settings = ("--set", "schedule.episodes=1000")
+        undisturbed = self.train(17431, "unasked", *settings)
+        folder = self.folder / "asked"
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17431), "--out", folder,
+                             "--format", "json", *settings)
+        wait_until((folder / "metrics.csv").exists, "a first evaluation")
+        asked = set(processes_with("fresco-learner")) & set(processes_with(str(folder)))
+        asked |= set(processes_with("fresco-actor")) & set(processes_with(url(17431)))
+        for pid in asked:
+            os.kill(pid, signal.SIGUSR1)
+        output, errors = process.communicate()
+        self.assertEqual(process.returncode, 0, errors)
+        self.assertEqual(len(asked), 3)
+        self.assertEqual(json.loads(output)["weights_crc32c"], undisturbed["weights_crc32c"])
+        learner, actor = ((folder / name).read_text() for name in ("learner.log", "actor-0.log"))
+        for part in (" info: state\n", " in flight; ", "networks on offer: ", " received, ", "\n  2 actors\n",
+                     "heard of 0."):
+            self.assertIn(part, learner)
+        for part in (" info: state\n", "orders flying", "networks held: ", "versions completed"):
+            self.assertIn(part, actor)
+
     def test_speaks_on_all_seven_channels_in_single_frames(self):
         log = self.folder / "lcm.log"
         logger = subprocess.Popen(["lcm-logger", "--lcm-url=" + url(17303) + "&recv_buf_size=4194304", "-f", log],

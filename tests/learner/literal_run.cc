@@ -33,7 +33,7 @@ Episode FlyOrder(const World& world, const Experiment& experiment, const Order& 
   flyer.Start(order, std::move(current), std::move(target));
   Episode flown;
   while (!flyer.Idle()) {
-    flyer.Step([&](const Episode& episode) { flown = episode; });
+    flyer.Step([&](const Order&, const Episode& episode) { flown = episode; });
   }
   return flown;
 }

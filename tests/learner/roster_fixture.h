@@ -35,20 +35,29 @@ class RosterFixture : public ::testing::Test {
     }
   }
 
-  void Hear(int64_t actor, int64_t now_us, int32_t capacity = 4) {
+  static actor_status_t StatusOf(int64_t actor, int32_t capacity = 4) {
     actor_status_t status{};
     status.actor_id = actor;
     status.capacity = capacity;
     status.pid = static_cast<int32_t>(1000 + actor);
     status.host = "host-" + std::to_string(actor);
-    roster_.Hear(status, now_us);
+    status.oldest_open_order = -1;
+    return status;
   }
 
-  /// The result of an order arrives.
-  void Complete(int64_t index, int64_t now_us) {
+  Roster::Hearing Hear(actor_status_t status, int64_t now_us) {
+    status.sequence = next_sequence_++;
+    return roster_.Hear(status, now_us);
+  }
+  Roster::Hearing Hear(int64_t actor, int64_t now_us, int32_t capacity = 4) {
+    return Hear(StatusOf(actor, capacity), now_us);
+  }
+
+  /// The result of an order arrives, from an actor (0: from none that is known).
+  void Complete(int64_t index, int64_t now_us, int64_t actor = 0) {
     ledger_.Add(FlyOrder(world_, experiment_, ledger_.order(index), parameters_, parameters_));
     ASSERT_TRUE(ledger_.IsComplete(index));
-    roster_.Completed(index, now_us);
+    roster_.Completed(index, actor, now_us);
   }
 
   std::vector<order_t> Due(int64_t now_us) { return roster_.DueOrders(ledger_, now_us); }
@@ -64,6 +73,7 @@ class RosterFixture : public ::testing::Test {
   std::shared_ptr<const Vector> parameters_;
   Ledger ledger_;
   Roster roster_;
+  int64_t next_sequence_ = 0;
 };
 
 }  // namespace fresco

@@ -1,6 +1,7 @@
-// What the roster does with orders whose result is late, and what it tells people who wait.
+// What the roster does with orders whose result is late.
 #include <map>
 
+#include "core/attentive_clock.h"
 #include "tests/learner/roster_fixture.h"
 
 namespace fresco {
@@ -90,8 +91,8 @@ TEST_F(RosterLate, ResultsOfAnEarlierAttemptCount) {
   DueWith({1, 2}, kBeginUs + 1'000'001);
   Complete(0, kBeginUs + 1'000'500);  // whoever it came from
   EXPECT_TRUE(DueWith({1, 2}, kBeginUs + 9'000'000).empty());
-  roster_.Completed(0, kBeginUs + 9'000'000);   // once more
-  roster_.Completed(55, kBeginUs + 9'000'000);  // and one that was never assigned
+  roster_.Completed(0, 1, kBeginUs + 9'000'000);   // once more
+  roster_.Completed(55, 1, kBeginUs + 9'000'000);  // and one that was never assigned
   Write(8);
   const std::vector<order_t> due = DueWith({1, 2}, kBeginUs + 9'000'000);
   EXPECT_EQ(CountOf(due, 1, 0), 4);  // neither has anything else to do
@@ -106,25 +107,68 @@ TEST_F(RosterLate, ActorsWhoseOrdersWentToAnotherHaveRoomAgain) {
   EXPECT_EQ(CountOf(DueWith({1}, kBeginUs + 401'000), 1, 0), 4);
 }
 
-TEST_F(RosterLate, AwaitedNamesTheActorTheOrderAndTheTime) {
-  Write(1);
-  EXPECT_EQ(roster_.Awaited(0, kBeginUs), "an actor to join");
-  Hear(4, kBeginUs);
-  EXPECT_EQ(roster_.Awaited(0, kBeginUs), "an actor for order 0");
-  Due(kBeginUs);
-  EXPECT_EQ(roster_.Awaited(0, kBeginUs), "host-4 (pid 1004): order 0 for 0.0 s");
-  EXPECT_EQ(roster_.Awaited(0, kBeginUs + 300'000), "host-4 (pid 1004): order 0 for 0.3 s");
-  EXPECT_EQ(roster_.Awaited(0, kBeginUs + 350'001), "an actor for order 0");  // host-4 is silent
-  EXPECT_EQ(roster_.Awaited(17, kBeginUs), "an actor for order 17");
-  Due(kBeginUs + 3'000'001);
-  EXPECT_EQ(roster_.Awaited(0, kBeginUs + 3'000'001), "an actor to join");
+TEST_F(RosterLate, TheHeadOfTheLineIsOrderedTwiceAndTheFirstResultCounts) {
+  Write(4);
+  const std::vector<order_t> due = DueWith({1, 2}, kBeginUs);
+  const int64_t slow = due[0].actor_id;
+  for (int64_t index = 1; index < 4; ++index) {
+    Complete(index, kBeginUs + 3000, due[static_cast<size_t>(index)].actor_id);
+  }
+  const std::vector<order_t> again = DueWith({1, 2}, kBeginUs + 900'000);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].index, 0);
+  EXPECT_EQ(again[0].actor_id, 3 - slow);
+  EXPECT_EQ(again[0].attempt, 1);
+  Complete(0, kBeginUs + 901'000, slow);
+  EXPECT_TRUE(DueWith({1, 2}, kBeginUs + 999'000).empty());
+  EXPECT_EQ(roster_.late_orders(), 1);
 }
 
-TEST_F(RosterLate, AwaitedCountsFromTheLastTimeThatTheOrderWasAskedFor) {
-  Write(1);
-  DueWith({4}, kBeginUs);
-  DueWith({4, 5}, kBeginUs + 1'000'001);
-  EXPECT_EQ(roster_.Awaited(0, kBeginUs + 1'200'001), "host-5 (pid 1005): order 0 for 0.2 s");
+TEST_F(RosterLate, AnActorThatSaysThatItLivesAndSendsNoResultsGetsNoMoreThanAFewOrders) {
+  std::map<int64_t, int64_t> sent;  // by actor
+  Write(4);
+  for (int64_t ms = 0; ms < 20'000; ms += 2) {
+    const int64_t now_us = kBeginUs + ms * 1000;
+    for (const order_t& order : DueWith({1, 2}, now_us)) {
+      ++sent[order.actor_id];
+      if (order.actor_id == 1) {  // the other one is deaf
+        Complete(order.index, now_us + 1000, 1);
+      }
+    }
+    while (ledger_.TakeNext()) {
+      Write(1);
+    }
+  }
+  EXPECT_GT(ledger_.committed(), 10'000);  // two of four orders at a time, every 2 ms, would be 20,000
+  EXPECT_LT(sent[2], 200);
+}
+
+TEST_F(RosterLate, AHostThatWasGoneForAMinuteGetsOrdersAgain) {
+  Write(8);
+  DueWith({1, 2}, kBeginUs);
+  std::vector<order_t> due;
+  for (int64_t ms = 100; ms <= 60'000; ms += 100) {
+    due = DueWith({2}, kBeginUs + ms * 1000);
+    EXPECT_EQ(CountOf(due, 1, 0), ms <= 350 && !due.empty() ? 4 : 0) << ms;
+  }
+  EXPECT_EQ(roster_.live_actors(kBeginUs + 60'000'000), 1);
+  for (int64_t index = 0; index < 8; ++index) {
+    Complete(index, kBeginUs + 60'100'000, 2);
+  }
+  Write(8);
+  due = DueWith({1, 2}, kBeginUs + 60'100'000);
+  EXPECT_EQ(CountOf(due, 1, 0), 4);
+  EXPECT_EQ(CountOf(due, 2, 0), 4);
+}
+
+TEST_F(RosterLate, NothingIsLateBecauseTheLearnerItselfWasStopped) {
+  AttentiveClock clock;
+  Write(4);
+  DueWith({1, 2}, clock.Look(kBeginUs));
+  const int64_t woken_us = clock.Look(kBeginUs + 60'000'000);
+  EXPECT_EQ(Due(woken_us).size(), 4u);  // repeated to whom they were given
+  EXPECT_EQ(roster_.late_orders(), 0);
+  EXPECT_EQ(roster_.live_actors(woken_us), 2);
 }
 
 }  // namespace

@@ -25,8 +25,12 @@ BusCounters DistinctCounters() {
   counters.rejected_foreign = 16;
   counters.rejected_inconsistent = 17;
   counters.rejected_arithmetic = 18;
-  counters.rejected_unauthenticated = 20;
+  counters.rejected_unauthenticated = 24;
   counters.reordered_episodes = 19;
+  counters.stale_statuses = 20;
+  counters.crowded_statuses = 21;
+  counters.weights_chunks_sent = 22;
+  counters.weights_chunks_repeated = 23;
   return counters;
 }
 
@@ -162,8 +166,9 @@ TEST(Summary, CountsWhatHappenedOnTheBus) {
   const RecordedRun run;
   EXPECT_EQ(SummaryOf(run).at("bus"), Json::parse(R"({
     "received": 11, "lost": 12, "duplicate": 13, "rejected": 14, "rejected_malformed": 15,
-    "rejected_foreign": 16, "rejected_inconsistent": 17, "rejected_arithmetic": 18, "rejected_unauthenticated": 20,
-    "reordered_episodes": 19})"));
+    "rejected_foreign": 16, "rejected_inconsistent": 17, "rejected_arithmetic": 18,
+    "rejected_unauthenticated": 24, "reordered_episodes": 19, "stale_statuses": 20, "crowded_statuses": 21,
+    "weights_chunks_sent": 22, "weights_chunks_repeated": 23})"));
 }
 
 TEST(Summary, HasNoFiguresBeforeTheFirstEvaluation) {

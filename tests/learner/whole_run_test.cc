@@ -121,6 +121,7 @@ class WholeRun : public ::testing::Test {
   World world_;
   RunResult expected_;
   BusCounters counters_;
+  int64_t resent_episodes_ = 0;
 };
 
 TEST_F(WholeRun, LearnsSomethingAndEvaluatesOnTheWay) {
@@ -192,6 +193,14 @@ TEST_F(WholeRun, GivesTheSameWeightsWhenTheLearnerIsKilledAndResumed) {
   ExpectTheSame(Run({.actors = 2, .learner_kills = 3}));
   ExpectTheSame(
       Run({.actors = 3, .loss = {0.05, 0.05, 0.1, 0.02, 6}, .one_vanishes = true, .learner_kills = 3}));
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsWhenTwoHundredActorsJoinAtOnce) {
+  ExpectTheSame(Run({.actors = 200}));
+  EXPECT_EQ(counters_.rejected, 0);
+  // What they all lack at first is sent again as one union, not two hundred times.
+  const int64_t first_time = counters_.weights_chunks_sent - counters_.weights_chunks_repeated;
+  EXPECT_LT(counters_.weights_chunks_repeated, 4 * first_time);
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsForPlainDqnWithoutMasksAndTheSchedulesOfThePaper) {

@@ -115,9 +115,10 @@ transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors) 
 
 actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int host_length) {
   auto message = Identified<actor_status_t>(stream);
-  FillAll(stream, message.actor_id, message.pid, message.capacity, message.open_orders,
-          message.arithmetic_fingerprint, message.episodes, message.transitions, message.resent_episodes,
-          message.rejected_messages, message.transitions_per_s);
+  FillAll(stream, message.actor_id, message.sequence, message.pid, message.capacity, message.open_orders,
+          message.oldest_open_order, message.weights_latency_ms, message.arithmetic_fingerprint,
+          message.episodes, message.transitions, message.resent_episodes, message.rejected_messages,
+          message.transitions_per_s);
   message.host = RandomText(stream, host_length);
   message.held_count = held;
   message.missing_count = missing;
@@ -126,16 +127,17 @@ actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int ho
   return message;
 }
 
-learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length) {
+learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length) {
   auto message = Identified<learner_status_t>(stream);
   FillAll(stream, message.committed_orders, message.episodes, message.total_episodes, message.transitions,
           message.updates, message.replay_size, message.current_version, message.target_version,
           message.orders_in_flight, message.actors, message.epsilon, message.learning_rate, message.loss,
           message.average_aoi, message.best_average_aoi, message.arrived, message.lower_bound_average_aoi,
-          message.optimum_proved, message.gap_percent, message.staleness_updates,
-          message.transitions_per_s, message.updates_per_s, message.received, message.duplicate,
-          message.rejected, message.lost, message.reordered_episodes);
+          message.optimum_proved, message.gap_percent, message.staleness_updates, message.transitions_per_s,
+          message.updates_per_s, message.received, message.duplicate, message.rejected, message.lost,
+          message.reordered_episodes);
   message.waiting_for = RandomText(stream, waiting_for_length);
+  message.warning = RandomText(stream, warning_length);
   return message;
 }
 
@@ -155,7 +157,7 @@ void Randomise(RandomStream& stream, actor_status_t& message) {
   message = ActorStatusOf(stream, Below(stream, 33), Below(stream, 33), Below(stream, 65));
 }
 void Randomise(RandomStream& stream, learner_status_t& message) {
-  message = LearnerStatusOf(stream, Below(stream, 161));
+  message = LearnerStatusOf(stream, Below(stream, 241), Below(stream, 241));
 }
 
 }  // namespace fresco

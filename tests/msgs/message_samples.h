@@ -30,7 +30,7 @@ weights_t WeightsOf(RandomStream& stream, int values);
 run_t RunOf(RandomStream& stream, int part_bytes);
 transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors);
 actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int host_length);
-learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length);
+learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length);
 
 template <class Message>
 std::vector<std::byte> Encoded(const Message& message) {

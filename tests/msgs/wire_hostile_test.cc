@@ -160,7 +160,7 @@ void ExpectStringsOfAbsurdLengthRejected(Message message, std::string Message::*
 TEST(HostileString, IsRejectedWhereItsLengthIsAbsurd) {
   RandomStream stream = TestStream(6);
   ExpectStringsOfAbsurdLengthRejected(ActorStatusOf(stream, 3, 3, 0), &actor_status_t::host);
-  ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 0), &learner_status_t::waiting_for);
+  ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 5, 0), &learner_status_t::warning);
 }
 
 TEST(HostileWireDeathTest, AMessageTooLargeForAFrameIsAProgrammersError) {

@@ -36,7 +36,7 @@ weights_t FullWeights() {
 
 actor_status_t FullActorStatus() {
   actor_status_t message{};
-  message.host = std::string(64, 'h');
+  message.host = std::string(kMaximumHostBytes, 'h');
   message.held_count = kMaximumHeldVersions;
   message.held.resize(kMaximumHeldVersions);
   message.missing_count = kMaximumMissingRanges;
@@ -46,7 +46,8 @@ actor_status_t FullActorStatus() {
 
 learner_status_t FullLearnerStatus() {
   learner_status_t message{};
-  message.waiting_for = std::string(160, 'w');
+  message.waiting_for = std::string(kMaximumTextBytes, 'w');
+  message.warning = std::string(kMaximumTextBytes, 'w');
   return message;
 }
 

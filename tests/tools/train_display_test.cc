@@ -47,6 +47,13 @@ TEST(ProgressLine, SaysHowFarTheRunIsAndWhoWaits) {
   EXPECT_NE(ProgressLine(status).find("learner waits for an actor to join"), std::string::npos);
 }
 
+TEST(ProgressLine, BeginsWithAWarning) {
+  learner_status_t status = Status();
+  status.warning = "the last checkpoint could not be written";
+  EXPECT_EQ(ProgressLine(status).find("WARNING: the last checkpoint could not be written |  25% | 1500 of"),
+            0u);
+}
+
 TEST(ProgressLine, ShowsTheGapOnceThereIsABound) {
   learner_status_t status = Status();
   status.average_aoi = 14;

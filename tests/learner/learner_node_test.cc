@@ -1,0 +1,118 @@
+// What the learner's side of the bus says of itself, on an in-process bus.
+#include "learner/learner_node.h"
+
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+
+#include "core/clock.h"
+#include "tests/learner/literal_run.h"
+
+namespace fresco {
+namespace {
+
+constexpr int64_t kRunId = 0x2a;
+
+class LearnerNodeTest : public ::testing::Test {
+ protected:
+  LearnerNodeTest() : experiment_(SmallExperiment()), world_(experiment_.scenario()) {
+    spdlog::set_level(spdlog::level::err);
+    bus_->Subscribe(channels_.learner_status,
+                    [this](std::span<const std::byte> bytes) { ASSERT_TRUE(Decode(bytes, status_)); });
+  }
+
+  /// Steps until a status sent after this moment has arrived.
+  const learner_status_t& NextStatus() {
+    const int64_t now = WallMicroseconds();
+    while (status_.utime < now) {
+      node_.Step();
+    }
+    return status_;
+  }
+
+  void SendStatus(int64_t actor_id, int64_t sequence) {
+    actor_status_t status{};
+    Stamp(status, {kRunId, experiment_.hash()}, 1);
+    status.actor_id = actor_id;
+    status.sequence = sequence;
+    status.capacity = 4;
+    status.pid = 12;
+    status.host = "there";
+    status.oldest_open_order = -1;
+    status.arithmetic_fingerprint = ArithmeticFingerprint();
+    std::vector<std::byte> bytes;
+    Encode(status, bytes);
+    bus_->Publish(channels_.actor_status, bytes);
+  }
+
+  Experiment experiment_;
+  World world_;
+  Channels channels_ = ChannelsWithPrefix("TEST");
+  std::unique_ptr<Bus> bus_ = OpenLcmBus("memq://");
+  LearnerNode node_{experiment_, world_, kRunId, *bus_, channels_};
+  learner_status_t status_{};
+};
+
+TEST_F(LearnerNodeTest, ShowsAWarningInItsStatusUntilItIsTakenBack) {
+  EXPECT_EQ(NextStatus().warning, "");
+  node_.SetWarning("the last checkpoint could not be written: no space");
+  EXPECT_EQ(NextStatus().warning, "the last checkpoint could not be written: no space");
+  node_.SetWarning(std::string(5000, 'w'));
+  EXPECT_EQ(NextStatus().warning, std::string(kMaximumTextBytes, 'w'));
+  node_.SetWarning("");
+  EXPECT_EQ(NextStatus().warning, "");
+}
+
+TEST_F(LearnerNodeTest, CountsHowLongTheTrainerHasWaited) {
+  EXPECT_EQ(node_.StarvedSeconds(), 0);
+  node_.WriteOrder(Order{});
+  EXPECT_EQ(node_.WaitingFor(), "");
+  EXPECT_FALSE(node_.WaitForNext(0));
+  EXPECT_EQ(node_.WaitingFor(), "an actor to join");
+  while (node_.StarvedSeconds() < 0.01) {
+    node_.Step();
+    EXPECT_FALSE(node_.WaitForNext(0));
+  }
+  node_.SetFinishing("the optimum");
+  EXPECT_EQ(node_.StarvedSeconds(), 0);
+  EXPECT_EQ(node_.WaitingFor(), "the optimum");
+}
+
+TEST_F(LearnerNodeTest, IgnoresStatusesThatComeAgain) {
+  for (const int64_t sequence : {3, 3, 2, 4, 4}) {
+    SendStatus(7, sequence);
+  }
+  NextStatus();  // in which they have been polled
+  EXPECT_EQ(NextStatus().actors, 1);
+  EXPECT_EQ(node_.counters().stale_statuses, 3);
+  EXPECT_EQ(node_.counters().received, 5);
+  EXPECT_EQ(node_.counters().rejected, 0);
+}
+
+TEST_F(LearnerNodeTest, CountsTheChunksOfNetworksThatItSends) {
+  const auto parameters = std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1));
+  node_.OfferVersion(NetworkKind::kCurrent, 0, parameters);
+  NextStatus();
+  EXPECT_EQ(node_.counters().weights_chunks_sent, ChunkCount(parameters->size()));
+  EXPECT_EQ(node_.counters().weights_chunks_repeated, 0);
+}
+
+TEST_F(LearnerNodeTest, TellsItsState) {
+  node_.WriteOrder(Order{});
+  EXPECT_FALSE(node_.WaitForNext(0));
+  node_.OfferVersion(NetworkKind::kTarget, 5,
+                     std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1)));
+  node_.SetWarning("the disk is full");
+  SendStatus(7, 0);
+  NextStatus();
+  NextStatus();
+  const std::string text = node_.StateText();
+  for (const char* part :
+       {"run 000000000000002a", "0 orders committed, 1 in flight", "waits for there (pid 12): order 0 for ",
+        "starved for ", "warning: the disk is full", "networks on offer: target 5", "1 received",
+        "\n  1 actors\n  actor 0000000000000007 there (pid 12): heard of ", "orders 0"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+}
+
+}  // namespace
+}  // namespace fresco
