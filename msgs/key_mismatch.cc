@@ -23,7 +23,7 @@ std::string KeyMismatch::Reason() const {
 }
 
 std::string KeyMismatch::News() {
-  const std::string news = told_ ? "" : Reason();
+  std::string news = told_ ? "" : Reason();
   told_ = told_ || !news.empty();
   return news;
 }

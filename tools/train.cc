@@ -81,11 +81,9 @@ int Train(TrainingRun& run, const std::filesystem::path& folder, bool text) {
   std::fflush(stdout);
   WriteRunReport(folder);  // after the results: nothing that befalls a picture may hide them
   if (status != 0) {
-    fmt::print(
-        stderr,
-        "fresco: the run was interrupted; what it learned so far is in {}\ngo on with it: tools/fresco "
-        "train --resume {}\n",
-        folder.string(), folder.string());
+    fmt::print(stderr,
+               "fresco: the run was interrupted; what it learned so far is in {}\ngo on with it: {}\n",
+               folder.string(), run.ResumeCommand());
   } else if (text) {
     fmt::print("\nlook at it: {}\nfly it:     tools/fresco evaluate --policy {}\n",
                (folder / "report.html").string(), folder.string());

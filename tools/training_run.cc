@@ -92,10 +92,15 @@ std::string TrainingRun::Summary() const {
                 fmt::format("the learner ended without results{}; its log ends with:{}",
                             CheckpointFolder(folder_).Latest().empty()
                                 ? ""
-                                : fmt::format(" (go on with: train --resume {})", folder_.string()),
+                                : fmt::format(" (go on with: {})", ResumeCommand()),
                             LastLines(folder_ / "learner.log", 3)));
   }
   return ReadFile(folder_ / "summary.json");
+}
+
+std::string TrainingRun::ResumeCommand() const {
+  return fmt::format("tools/fresco train --resume {}{}", folder_.string(),
+                     key_file_ ? " --key-file " + key_file_->string() : "");
 }
 
 std::vector<std::string> TrainingRun::LearnerArguments() const {

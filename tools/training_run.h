@@ -44,6 +44,9 @@ class TrainingRun {
   /// log where it has left none.
   std::string Summary() const;
 
+  /// What goes on with this run where it was interrupted; with its key, without which it would go on open.
+  std::string ResumeCommand() const;
+
  private:
   /// One local actor's place, and how often its process died at once.
   struct ActorPlace {

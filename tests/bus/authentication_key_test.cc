@@ -26,7 +26,7 @@ class KeyFiles : public ::testing::Test {
   ~KeyFiles() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path Write(const std::string& content, mode_t mode = 0600) const {
-    const std::filesystem::path path = folder_ / "run.key";
+    std::filesystem::path path = folder_ / "run.key";
     std::ofstream(path, std::ios::binary) << content;
     EXPECT_EQ(chmod(path.c_str(), mode), 0);
     return path;

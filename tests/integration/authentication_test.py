@@ -84,6 +84,21 @@ class Authentication(FrescoTest):
         self.assertIn("made with a key, and no --key-file is given here", learner_log)
         self.assertIn("made with another key than that of --key-file here, or with none", logs[0])
 
+    def test_is_gone_on_with_by_the_command_that_an_interrupted_run_names(self):
+        arguments = ["--set", "schedule.episodes=1000", "--key-file", self.key()]
+        whole = self.train(17415, "whole", *arguments)
+        folder = self.folder / "stopped"
+        process = self.start_to_end("train", "--config", CI_CONFIG, "--lcm-url", url(17415), "--out", folder,
+                                    *arguments)
+        wait_until(lambda: (folder / "metrics.csv").exists(), "a first evaluation")
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 1, errors)
+        command = errors.split("go on with it: tools/fresco ")[1].split()
+        self.assertIn("--key-file", command)
+        output, _ = self.run_fresco(*command, "--format", "json")
+        self.assertEqual(json.loads(output)["weights_crc32c"], whole["weights_crc32c"])
+
     def test_stands_in_every_message_of_a_run_within_a_single_frame(self):
         key, log = self.key(), self.folder / "lcm.log"
         logger = subprocess.Popen(["lcm-logger", "--lcm-url=" + url(17413) + "&recv_buf_size=4194304", "-f", log],
