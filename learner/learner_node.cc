@@ -292,15 +292,19 @@ void LearnerNode::SendStatusIfDue(int64_t now_us) {
   if (now_us >= next_status_us_) {
     next_status_us_ = now_us + kStatusPeriodUs;
     Publish(channels_.learner_status, Status(now_us));
-    const std::lock_guard lock(mutex_);
-    if (const std::string news = key_mismatch_.News(); !news.empty()) {
-      spdlog::warn("{}", news);
-    }
-    WarnIfStarved();
+    WarnIfNeeded();
   }
 }
 
-void LearnerNode::WarnIfStarved() {
+void LearnerNode::WarnIfNeeded() {
+  std::string foreign_key;
+  {
+    const std::lock_guard lock(mutex_);
+    foreign_key = key_mismatch_.News();
+  }
+  if (!foreign_key.empty()) {
+    spdlog::warn("{}", foreign_key);
+  }
   if (const auto line = starvation_warning_.Note(StarvedSeconds(), WaitingFor())) {
     spdlog::warn("{}", *line);
   }

@@ -81,7 +81,7 @@ class LearnerNode {
   void SendWeights(int64_t now_us);
   void SendStatusIfDue(int64_t now_us);
   learner_status_t Status(int64_t now_us);
-  void WarnIfStarved();
+  void WarnIfNeeded();
   std::string WaitingForLocked() const;
   double StarvedSecondsLocked() const;
   BusCounters CountersLocked() const;
