@@ -9,7 +9,7 @@
 #include <random>
 
 #include "actors/actor.h"
-#include "bus/authenticated_bus.h"
+#include "bus/open_bus.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/state_signal.h"
@@ -25,7 +25,7 @@ struct Arguments {
   std::string channel_prefix = kDefaultChannelPrefix;
   std::string run_id;
   int environments = 0;
-  KeyFile key_file;
+  BusOptions bus;
   bool once = false;
 };
 
@@ -57,7 +57,7 @@ ActorOptions OptionsFrom(const Arguments& arguments) {
 
 void Serve(const Arguments& arguments) {
   constexpr int64_t kWaitUs = 2'000;
-  const std::unique_ptr<Bus> bus = OpenBus(arguments.lcm_url, arguments.key_file);
+  const std::unique_ptr<Bus> bus = OpenBus(arguments.lcm_url, arguments.bus);
   Actor actor(*bus, ChannelsWithPrefix(arguments.channel_prefix), OptionsFrom(arguments));
   spdlog::info("waiting for a run on {}", arguments.lcm_url);
   while (!StopSignal::Requested() && !(arguments.once && actor.run_over())) {
@@ -80,8 +80,11 @@ int Main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--run-id", arguments.run_id, "Serve this run only (16 hexadecimal digits)");
   app.add_option_function<std::string>(
-      "--key-file", [&](const std::string& file) { arguments.key_file = file; },
+      "--key-file", [&](const std::string& file) { arguments.bus.key_file = file; },
       "The run's key: take only messages that are authenticated with it");
+  app.add_option_function<std::string>(
+      "--disturb", [&](const std::string& text) { arguments.bus.disturbance = ParseLossOptions(text); },
+      "For tests: lose, repeat, delay and corrupt what is sent, e.g. drop=0.01,delay=0.05,seed=3");
   app.add_option("--environments", arguments.environments, "Episodes flown side by side; 0: as the run says")
       ->check(CLI::Range(0, 4096));
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");

@@ -93,12 +93,8 @@ std::unique_ptr<Bus> MakeAuthenticatedBus(Bus& inner, const AuthenticationKey& k
   return std::make_unique<AuthenticatedBus>(inner, key);
 }
 
-std::unique_ptr<Bus> OpenBus(const std::string& url, const KeyFile& key_file) {
-  if (!key_file) {
-    return OpenLcmBus(url);
-  }
-  const AuthenticationKey key = ReadAuthenticationKey(*key_file);  // before anything is heard
-  return std::make_unique<AuthenticatedBus>(OpenLcmBus(url), key);
+std::unique_ptr<Bus> MakeAuthenticatedBus(std::unique_ptr<Bus> inner, const AuthenticationKey& key) {
+  return std::make_unique<AuthenticatedBus>(std::move(inner), key);
 }
 
 }  // namespace fresco

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "bus/authentication_key.h"
 #include "bus/bus.h"
@@ -21,7 +20,7 @@ inline constexpr size_t kAuthenticationTagBytes = 32;
 /// after its end. Threads as of any bus; receiving allocates nothing.
 std::unique_ptr<Bus> MakeAuthenticatedBus(Bus& inner, const AuthenticationKey& key);
 
-/// The bus of a program: OpenLcmBus, authenticated where a key file is given.
-std::unique_ptr<Bus> OpenBus(const std::string& url, const KeyFile& key_file);
+/// The same with a bus of its own.
+std::unique_ptr<Bus> MakeAuthenticatedBus(std::unique_ptr<Bus> inner, const AuthenticationKey& key);
 
 }  // namespace fresco

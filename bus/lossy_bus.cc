@@ -1,21 +1,42 @@
 #include "bus/lossy_bus.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
 #include <mutex>
+#include <sstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/check.h"
+#include "core/error.h"
 #include "core/random.h"
 
 namespace fresco {
 namespace {
 
+struct Probability {
+  std::string_view name;
+  double LossOptions::*value;
+};
+constexpr Probability kProbabilities[] = {{"drop", &LossOptions::drop},
+                                          {"duplicate", &LossOptions::duplicate},
+                                          {"delay", &LossOptions::delay},
+                                          {"corrupt", &LossOptions::corrupt}};
+
 class LossyBus : public Bus {
  public:
   LossyBus(Bus& inner, LossOptions options)
       : inner_(&inner), options_(options), stream_(options.seed, RandomPurpose::kTest, 0, 0) {
-    for (const double probability : {options.drop, options.duplicate, options.delay, options.corrupt}) {
-      FRESCO_CHECK(probability >= 0 && probability <= 1);
+    for (const Probability& probability : kProbabilities) {
+      FRESCO_CHECK(options.*(probability.value) >= 0 && options.*(probability.value) <= 1);
     }
+  }
+  LossyBus(std::unique_ptr<Bus> inner, LossOptions options) : LossyBus(*inner, options) {
+    owned_ = std::move(inner);
   }
 
   bool Publish(const std::string& channel, std::span<const std::byte> message) override {
@@ -72,6 +93,7 @@ class LossyBus : public Bus {
     std::erase_if(held_, [](const Held& held) { return held.publishes_left <= 0; });
   }
 
+  std::unique_ptr<Bus> owned_;  // where it is this one's own
   Bus* inner_;
   LossOptions options_;
   std::mutex mutex_;
@@ -83,6 +105,47 @@ class LossyBus : public Bus {
 
 std::unique_ptr<Bus> MakeLossyBus(Bus& inner, LossOptions options) {
   return std::make_unique<LossyBus>(inner, options);
+}
+
+std::unique_ptr<Bus> MakeLossyBus(std::unique_ptr<Bus> inner, LossOptions options) {
+  return std::make_unique<LossyBus>(std::move(inner), options);
+}
+
+LossOptions ParseLossOptions(const std::string& text) {
+  LossOptions options;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const size_t equals = std::min(part.find('='), part.size());
+    const std::string name = part.substr(0, equals);
+    const std::string value = part.substr(std::min(equals + 1, part.size()));
+    const auto known = std::find_if(std::begin(kProbabilities), std::end(kProbabilities),
+                                    [&](const auto& entry) { return entry.name == name; });
+    const char* end = value.data() + value.size();
+    std::from_chars_result read{value.data(), std::errc::invalid_argument};
+    bool in_range = true;
+    if (name == "seed") {
+      read = std::from_chars(value.data(), end, options.seed);
+    } else if (known != std::end(kProbabilities)) {
+      double& probability = options.*(known->value);
+      read = std::from_chars(value.data(), end, probability);
+      in_range = probability >= 0 && probability <= 1;
+    }
+    if (read.ec != std::errc() || read.ptr != end || !in_range) {
+      throw UsageError(fmt::format(
+          "disturbance \"{}\": expected drop, duplicate, delay or corrupt with a probability of 0 to "
+          "1, or seed with an integer, found \"{}\"; for example: drop=0.01,delay=0.05,seed=3",
+          text, part));
+    }
+  }
+  return options;
+}
+
+std::string ToText(const LossOptions& options) {
+  std::string text = fmt::format("seed={}", options.seed);
+  for (const auto& [name, value] : kProbabilities) {
+    text += fmt::format(",{}={}", name, options.*value);
+  }
+  return text;
 }
 
 }  // namespace fresco

@@ -15,7 +15,15 @@ struct LossOptions {
   uint64_t seed = 1;
 };
 
-/// Disturbs what is published through it; subscriptions and polling pass through.
+/// From "drop=0.01,duplicate=0.02,delay=0.05,corrupt=0.001,seed=3", any of them. Throws UsageError naming
+/// the part that is wrong.
+LossOptions ParseLossOptions(const std::string& text);
+/// The text that ParseLossOptions reads.
+std::string ToText(const LossOptions& options);
+
+/// Disturbs what is published through it; subscriptions and polling pass through. `inner` must outlive it.
 std::unique_ptr<Bus> MakeLossyBus(Bus& inner, LossOptions options);
+/// The same with a bus of its own.
+std::unique_ptr<Bus> MakeLossyBus(std::unique_ptr<Bus> inner, LossOptions options);
 
 }  // namespace fresco

@@ -6,7 +6,7 @@
 #include <exception>
 #include <random>
 
-#include "bus/authenticated_bus.h"
+#include "bus/open_bus.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "core/state_signal.h"
@@ -26,7 +26,7 @@ struct Arguments {
   std::string out;
   std::string resume;
   std::string run_id;
-  KeyFile key_file;
+  BusOptions bus;
 };
 
 /// Names the run; has no influence on what it learns.
@@ -35,8 +35,8 @@ int64_t DrawRunId() {
   return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
 }
 
-int Run(const Experiment& experiment, const KeyFile& key_file, LearnerOptions options) {
-  const std::unique_ptr<Bus> bus = OpenBus(experiment.run().lcm_url(), key_file);
+int Run(const Experiment& experiment, const BusOptions& bus_options, LearnerOptions options) {
+  const std::unique_ptr<Bus> bus = OpenBus(experiment.run().lcm_url(), bus_options);
   spdlog::info("run {:016x}, configuration {:08x}, on {}", static_cast<uint64_t>(options.run_id),
                experiment.hash(), experiment.run().lcm_url());
   return LearnerProcess(experiment, *bus, std::move(options)).Run() ? 0 : 1;
@@ -52,7 +52,7 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
   }
   RunFolder::Make(arguments.out);
   const FolderLock lock(arguments.out);
-  return Run(Experiment::Load(arguments.config, settings), arguments.key_file,
+  return Run(Experiment::Load(arguments.config, settings), arguments.bus,
              {arguments.out, RunIdFrom(arguments)});
 }
 
@@ -60,7 +60,7 @@ int Resume(const Arguments& arguments, const Settings& settings) {
   const FolderLock lock(arguments.resume, kResumePatienceUs);
   Resumption resumption = ReadResumption(arguments.resume, settings);
   const int64_t run_id = resumption.checkpoint ? resumption.checkpoint->run_id : RunIdFrom(arguments);
-  return Run(resumption.experiment, arguments.key_file,
+  return Run(resumption.experiment, arguments.bus,
              {arguments.resume, run_id, RunFolder::Use::kResume, std::move(resumption.checkpoint)});
 }
 
@@ -80,8 +80,11 @@ int Main(int argc, char** argv) {
       ->excludes(out);
   app.add_option("--run-id", arguments.run_id, "Name of the run (16 hexadecimal digits); default: drawn");
   app.add_option_function<std::string>(
-      "--key-file", [&](const std::string& file) { arguments.key_file = file; },
+      "--key-file", [&](const std::string& file) { arguments.bus.key_file = file; },
       "The run's key: take only messages that are authenticated with it");
+  app.add_option_function<std::string>(
+      "--disturb", [&](const std::string& text) { arguments.bus.disturbance = ParseLossOptions(text); },
+      "For tests: lose, repeat, delay and corrupt what is sent, e.g. drop=0.01,delay=0.05,seed=3");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -24,7 +24,7 @@ struct FiguresOptions {
   std::optional<int> deployments;
   int parallel = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::string lcm_url;
-  KeyFile key_file;
+  BusOptions bus;
   bool quick = false;
 };
 
@@ -60,7 +60,7 @@ int WriteFigures(const FiguresOptions& options) {
   const PaperStudy study = MakePaperStudy(base, ScopeOf(options));
   const Path folder(options.out);
   const std::vector<StudyResult> results =
-      RunStudy(study.jobs, {folder / "runs", options.parallel, options.key_file});
+      RunStudy(study.jobs, {folder / "runs", options.parallel, options.bus});
   const WrittenFigures written = WriteStudyFigures(folder, base, study, results);
   fmt::print("mean gap of DQN to the optimum over both figures' points: {:.2f} %\n",
              written.mean_gap_percent);
@@ -89,7 +89,7 @@ void AddFigures(CLI::App& app, Command& command) {
       ->check(CLI::Range(1, 256));
   figures->add_option("--lcm-url", options->lcm_url, "Where learners and actors meet");
   figures->add_option_function<std::string>(
-      "--key-file", [options](const std::string& file) { options->key_file = file; },
+      "--key-file", [options](const std::string& file) { options->bus.key_file = file; },
       "Take only messages that are authenticated with this file's key");
   figures->add_flag("--quick", options->quick, "A small version: few points, short training");
   figures->callback([options, &command] { command = [options] { return WriteFigures(*options); }; });

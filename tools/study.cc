@@ -99,8 +99,8 @@ class Study {
 
  private:
   struct Running {
-    Running(size_t its_job, const Experiment& experiment, const Path& folder, const KeyFile& key_file)
-        : job(its_job), run(experiment, folder, key_file) {}
+    Running(size_t its_job, const Experiment& experiment, const Path& folder, const BusOptions& bus_options)
+        : job(its_job), run(experiment, folder, bus_options) {}
     size_t job;
     TrainingRun run;
   };
@@ -118,7 +118,7 @@ class Study {
     }
     std::filesystem::remove_all(FolderOf(job));  // what an interrupted study left of this run
     running_[place] = std::make_unique<Running>(job, Experiment::Make(config, jobs_[job].name), FolderOf(job),
-                                                options_.key_file);
+                                                options_.bus);
     running_[place]->run.Start();
   }
 

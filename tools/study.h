@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/authentication_key.h"
+#include "bus/open_bus.h"
 #include "msgs/experiment.h"
 
 namespace fresco {
@@ -37,7 +37,7 @@ struct StudyResult {
 struct StudyOptions {
   std::filesystem::path folder;  ///< the runs go to folder/<name>
   int parallel = 1;              ///< runs side by side, each on channels of its own
-  KeyFile key_file = {};         ///< of every run
+  BusOptions bus = {};           ///< of every run
 };
 
 /// Runs what has no complete summary yet and returns the results, in the order of the jobs. Shows how

@@ -27,7 +27,7 @@ struct TrainOptions {
   std::string out;
   std::string resume;
   std::string lcm_url;
-  KeyFile key_file;
+  BusOptions bus;
   std::string format = "text";
 };
 
@@ -100,7 +100,7 @@ int TrainAnew(const TrainOptions& options) {
   if (text) {
     Announce(experiment, folder);
   }
-  TrainingRun run(experiment, folder, options.key_file);
+  TrainingRun run(experiment, folder, options.bus);
   return Train(run, folder, text);
 }
 
@@ -117,7 +117,7 @@ int GoOn(const TrainOptions& options) {
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
-  TrainingRun run(resumption, options.resume, options.key_file);
+  TrainingRun run(resumption, options.resume, options.bus);
   return Train(run, options.resume, text);
 }
 
@@ -143,8 +143,12 @@ void AddTrain(CLI::App& app, Command& command) {
       ->excludes(out);
   train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
   train->add_option_function<std::string>(
-      "--key-file", [options](const std::string& file) { options->key_file = file; },
+      "--key-file", [options](const std::string& file) { options->bus.key_file = file; },
       "Take only messages that are authenticated with this file's key; the actors that join need it, too");
+  train->add_option_function<std::string>(
+      "--disturb", [options](const std::string& text) { options->bus.disturbance = ParseLossOptions(text); },
+      "For tests: lose, repeat, delay and corrupt what every process sends, e.g. "
+      "drop=0.01,delay=0.05,seed=3");
   train->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   train->callback([options, &command] {
     command = [options] { return options->resume.empty() ? TrainAnew(*options) : GoOn(*options); };

@@ -25,21 +25,23 @@ int64_t DrawRunId() {
 
 }  // namespace
 
-TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file)
-    : TrainingRun(experiment, std::move(folder), key_file, RunFolder::Use::kNewRun, DrawRunId()) {}
+TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder,
+                         const BusOptions& bus_options)
+    : TrainingRun(experiment, std::move(folder), bus_options, RunFolder::Use::kNewRun, DrawRunId()) {}
 
-TrainingRun::TrainingRun(const Resumption& resumption, std::filesystem::path folder, const KeyFile& key_file)
-    : TrainingRun(resumption.experiment, std::move(folder), key_file, RunFolder::Use::kResume,
+TrainingRun::TrainingRun(const Resumption& resumption, std::filesystem::path folder,
+                         const BusOptions& bus_options)
+    : TrainingRun(resumption.experiment, std::move(folder), bus_options, RunFolder::Use::kResume,
                   resumption.checkpoint ? resumption.checkpoint->run_id : DrawRunId()) {}
 
-TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file,
-                         RunFolder::Use use, int64_t run_id)
+TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder,
+                         const BusOptions& bus_options, RunFolder::Use use, int64_t run_id)
     : experiment_(experiment),
       folder_(std::move(folder)),
-      key_file_(key_file),
+      bus_options_(bus_options),
       use_(use),
       run_id_(run_id),
-      bus_(OpenBus(experiment.run().lcm_url(), key_file)) {
+      bus_(OpenBus(experiment.run().lcm_url(), {bus_options.key_file})) {
   PrepareFolder();
   Listen();
 }
@@ -100,10 +102,10 @@ std::string TrainingRun::Summary() const {
 
 std::string TrainingRun::ResumeCommand() const {
   return fmt::format("tools/fresco train --resume {}{}", folder_.string(),
-                     key_file_ ? " --key-file " + key_file_->string() : "");
+                     bus_options_.key_file ? " --key-file " + bus_options_.key_file->string() : "");
 }
 
-std::vector<std::string> TrainingRun::LearnerArguments() const {
+std::vector<std::string> TrainingRun::LearnerArguments() {
   std::vector<std::string> arguments = {SiblingProgram("fresco-learner").string(), "--run-id", RunIdText()};
   if (use_ == RunFolder::Use::kResume) {
     arguments.insert(arguments.end(), {"--resume", folder_.string()});
@@ -111,17 +113,22 @@ std::vector<std::string> TrainingRun::LearnerArguments() const {
     arguments.insert(arguments.end(),
                      {"--config", (folder_ / "config.textproto").string(), "--out", folder_.string()});
   }
-  return WithKey(std::move(arguments));
+  return WithBusOptions(std::move(arguments));
 }
 
-std::vector<std::string> TrainingRun::ActorArguments() const {
-  return WithKey({SiblingProgram("fresco-actor").string(), "--lcm-url", experiment_.run().lcm_url(),
-                  "--channel-prefix", experiment_.run().channel_prefix(), "--run-id", RunIdText()});
+std::vector<std::string> TrainingRun::ActorArguments() {
+  return WithBusOptions({SiblingProgram("fresco-actor").string(), "--lcm-url", experiment_.run().lcm_url(),
+                         "--channel-prefix", experiment_.run().channel_prefix(), "--run-id", RunIdText()});
 }
 
-std::vector<std::string> TrainingRun::WithKey(std::vector<std::string> arguments) const {
-  if (key_file_) {
-    arguments.insert(arguments.end(), {"--key-file", key_file_->string()});
+std::vector<std::string> TrainingRun::WithBusOptions(std::vector<std::string> arguments) {
+  if (bus_options_.key_file) {
+    arguments.insert(arguments.end(), {"--key-file", bus_options_.key_file->string()});
+  }
+  if (bus_options_.disturbance) {
+    LossOptions disturbance = *bus_options_.disturbance;
+    disturbance.seed += started_processes_++;
+    arguments.insert(arguments.end(), {"--disturb", ToText(disturbance)});
   }
   return arguments;
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/authenticated_bus.h"
+#include "bus/open_bus.h"
 #include "learner/resumption.h"
 #include "learner/run_folder.h"
 #include "msgs/experiment.h"
@@ -21,10 +21,10 @@ namespace fresco {
 class TrainingRun {
  public:
   /// A new run: opens the bus and makes the folder; throws UsageError where it holds another run.
-  /// `key_file` goes to every process, and as all of this never into the configuration.
-  TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file = {});
+  /// `bus_options` go to every process, a disturbance with a seed of its own.
+  TrainingRun(const Experiment& experiment, std::filesystem::path folder, const BusOptions& bus_options = {});
   /// Goes on with the run in `folder`, read by ReadResumption.
-  TrainingRun(const Resumption& resumption, std::filesystem::path folder, const KeyFile& key_file = {});
+  TrainingRun(const Resumption& resumption, std::filesystem::path folder, const BusOptions& bus_options = {});
   /// Ends every process that is still there.
   ~TrainingRun() = default;
 
@@ -55,13 +55,13 @@ class TrainingRun {
     int64_t start_at_us = 0;
   };
 
-  TrainingRun(const Experiment& experiment, std::filesystem::path folder, const KeyFile& key_file,
+  TrainingRun(const Experiment& experiment, std::filesystem::path folder, const BusOptions& bus_options,
               RunFolder::Use use, int64_t run_id);
   void PrepareFolder() const;
   void Listen();
-  std::vector<std::string> LearnerArguments() const;
-  std::vector<std::string> ActorArguments() const;
-  std::vector<std::string> WithKey(std::vector<std::string> arguments) const;
+  std::vector<std::string> LearnerArguments();
+  std::vector<std::string> ActorArguments();
+  std::vector<std::string> WithBusOptions(std::vector<std::string> arguments);
   std::string RunIdText() const;
   void KeepActorsAlive();
   void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
@@ -69,13 +69,14 @@ class TrainingRun {
 
   Experiment experiment_;
   std::filesystem::path folder_;
-  KeyFile key_file_;
+  BusOptions bus_options_;
   RunFolder::Use use_;
   int64_t run_id_;
   std::unique_ptr<Bus> bus_;
   std::optional<learner_status_t> status_;
   std::unique_ptr<ChildProcess> learner_;
   std::vector<ActorPlace> actors_;
+  uint64_t started_processes_ = 0;
 };
 
 }  // namespace fresco

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bus/authenticated_bus.h"
+#include "bus/open_bus.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -93,7 +94,7 @@ TEST_F(KeyFiles, AreRefusedWhereOthersMayReadOrWriteThem) {
 }
 
 TEST_F(KeyFiles, OpenABusWithTheirKey) {
-  const auto bus = OpenBus("memq://", Write(std::string(32, 'k')));
+  const auto bus = OpenBus("memq://", {.key_file = Write(std::string(32, 'k'))});
   const std::string secret(32, 'k');
   const auto same = MakeAuthenticatedBus(*bus, AuthenticationKey(std::as_bytes(std::span(secret))));
   int heard = 0;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+
 namespace fresco {
 namespace {
 
@@ -85,6 +87,29 @@ TEST(LossyBus, DisturbsTheSameWayForTheSameSeed) {
   LossOptions other = options;
   other.seed = 6;
   EXPECT_NE(Disturbed(options, 500), Disturbed(other, 500));
+}
+
+TEST(LossOptions, AreReadFromTextAndWrittenToIt) {
+  const LossOptions options = ParseLossOptions("drop=0.01,delay=1,corrupt=0.5,seed=12");
+  EXPECT_EQ(options.drop, 0.01);
+  EXPECT_EQ(options.duplicate, 0);
+  EXPECT_EQ(options.delay, 1);
+  EXPECT_EQ(options.corrupt, 0.5);
+  EXPECT_EQ(options.seed, 12u);
+  EXPECT_EQ(ToText(ParseLossOptions(ToText(options))), ToText(options));
+}
+
+TEST(LossOptions, NameThePartThatIsWrong) {
+  for (const std::string part :
+       {"drop", "drop=", "drop=x", "drop=1.5", "drop=-0.1", "loss=0.1", "seed=-1", "=1"}) {
+    try {
+      ParseLossOptions("delay=0.1," + part);
+      ADD_FAILURE() << "accepted " << part;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_NE(std::string(error.what()).find("found \"" + part + "\""), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace
