@@ -108,7 +108,7 @@ TEST_F(KeyFiles, OpenABusWithTheirKey) {
   EXPECT_EQ(heard, 1);
   EXPECT_EQ(heard_twice, 1);
   EXPECT_EQ(bus->refused_messages() + same->refused_messages(), 0);
-  EXPECT_THROW(OpenBus("memq://", folder_ / "none"), Error);
+  EXPECT_THROW(OpenBus("memq://", {.key_file = folder_ / "none"}), Error);
 }
 
 }  // namespace
