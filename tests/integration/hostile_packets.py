@@ -120,20 +120,20 @@ def hostile_packets(recorded, run_id, seed=1):
 
 
 def _send(port, packets, packets_per_s, stop, sent):
-    sender = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
-    sender.connect((GROUP, port))
-    begin = time.monotonic()
-    for count, (_, datagram) in enumerate(itertools.cycle(packets), 1):
-        try:
-            sender.send(datagram)
-        except OSError:  # no room at the moment
-            pass
-        if count % 64 == 0:
-            sent.value = count
-            if stop.is_set():
-                return
-            time.sleep(max(0, begin + count / packets_per_s - time.monotonic()))
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
+        sender.connect((GROUP, port))
+        begin = time.monotonic()
+        for count, (_, datagram) in enumerate(itertools.cycle(packets), 1):
+            try:
+                sender.send(datagram)
+            except OSError:  # no room at the moment
+                pass
+            if count % 64 == 0:
+                sent.value = count
+                if stop.is_set():
+                    return
+                time.sleep(max(0, begin + count / packets_per_s - time.monotonic()))
 
 
 class Flood:
