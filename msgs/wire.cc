@@ -1,5 +1,8 @@
 #include "msgs/wire.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "core/check.h"
 #include "core/crc32c.h"
 
@@ -20,7 +23,7 @@ int32_t BigEndianInt32(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes) {
-  if (bytes.size() < kTrailerBytes || bytes.size() > kMaximumMessageBytes) {
+  if (bytes.size() < kTrailerBytes || bytes.size() > kMaximumEncodedBytes + kTrailerBytes) {
     return {};
   }
   const auto encoding = bytes.first(bytes.size() - kTrailerBytes);
@@ -50,6 +53,19 @@ bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list
     offset += sizeof(int32_t);
   }
   return true;
+}
+
+bool TextIsAllowed(std::span<const std::byte> encoding, size_t offset) {
+  const size_t begin = offset + sizeof(int32_t);
+  if (encoding.size() <= begin) {
+    return false;
+  }
+  const int32_t length = BigEndianInt32(encoding.subspan(offset, sizeof(int32_t)));
+  if (length < 1 || static_cast<size_t>(length) > encoding.size() - begin) {
+    return false;
+  }
+  const auto text = encoding.subspan(begin, static_cast<size_t>(length));
+  return std::find(text.begin(), text.end(), std::byte{0}) == std::prev(text.end());
 }
 
 }  // namespace fresco

@@ -8,6 +8,7 @@
 #include <exception>
 #include <initializer_list>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "fresco/actor_status_t.hpp"
@@ -81,18 +82,34 @@ void AppendTrailer(int encoded, std::vector<std::byte>& bytes);
 /// Whether the counts in the encoding lie in 0 .. maxima.
 bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list<int32_t> maxima);
 
+/// Whether a text, its length of four bytes at `offset`, lies within the encoding and is as an encoder
+/// writes it: one NUL, at its end. LCM's decoders subtract one from any length and take any byte for the
+/// NUL; its encoders stop at the first.
+bool TextIsAllowed(std::span<const std::byte> encoding, size_t offset);
+
+/// The same of the one text of a message, if it has one: it stands behind the fields of fixed size.
+template <class Message>
+bool TextIsAllowed(std::span<const std::byte> encoding, const Message&) {
+  if constexpr (std::is_same_v<Message, actor_status_t> || std::is_same_v<Message, learner_status_t>) {
+    constexpr size_t kEmptyTextBytes = sizeof(int32_t) + 1;
+    return TextIsAllowed(encoding, static_cast<size_t>(Message{}.getEncodedSize()) - kEmptyTextBytes);
+  }
+  return true;
+}
+
 /// Decodes a message; false where it is corrupt, of another type, malformed, oversized or longer
-/// than its content. Never throws, never allocates more than the limits allow.
+/// than its content. What decodes encodes to the same bytes again. Never throws, never allocates more than
+/// the limits allow.
 template <class Message>
 bool Decode(std::span<const std::byte> bytes, Message& message) {
   const std::span<const std::byte> encoding = WithoutTrailer(bytes);
-  if (!CountsAreAllowed(encoding, CountMaxima(message))) {
+  if (!CountsAreAllowed(encoding, CountMaxima(message)) || !TextIsAllowed(encoding, message)) {
     return false;
   }
   try {
     const int size = static_cast<int>(encoding.size());
     return message.decode(encoding.data(), 0, size) == size;
-  } catch (const std::exception&) {  // a string of negative length, say
+  } catch (const std::exception&) {
     return false;
   }
 }

@@ -132,9 +132,9 @@ learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length) {
           message.updates, message.replay_size, message.current_version, message.target_version,
           message.orders_in_flight, message.actors, message.epsilon, message.learning_rate, message.loss,
           message.average_aoi, message.best_average_aoi, message.arrived, message.lower_bound_average_aoi,
-          message.optimum_proved, message.gap_percent, message.staleness_updates,
-          message.transitions_per_s, message.updates_per_s, message.received, message.duplicate,
-          message.rejected, message.lost, message.reordered_episodes);
+          message.optimum_proved, message.gap_percent, message.staleness_updates, message.transitions_per_s,
+          message.updates_per_s, message.received, message.duplicate, message.rejected, message.lost,
+          message.reordered_episodes);
   message.waiting_for = RandomText(stream, waiting_for_length);
   return message;
 }
