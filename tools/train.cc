@@ -57,10 +57,13 @@ std::filesystem::path DefaultFolder() {
 /// Minds the run until it ends or the program is asked to stop; returns the learner's exit status.
 int MindRun(TrainingRun& run) {
   constexpr int64_t kPollUs = 50'000;
+  constexpr double kSilentS = 3;
   LiveLine line(true);
   run.Start();
   while (!StopSignal::Requested() && run.Step(kPollUs)) {
-    if (run.status()) {
+    if (run.SilentSeconds() > kSilentS) {
+      line.Show(fmt::format("nothing heard of the learner for {:.0f} s", run.SilentSeconds()));
+    } else if (run.status()) {
       line.Show(ProgressLine(*run.status()));
     }
   }

@@ -60,6 +60,7 @@ void TrainingRun::Listen() {
     learner_status_t status{};
     if (Decode(bytes, status) && status.run_id == run_id_) {
       status_ = std::move(status);
+      heard_us_ = MonotonicMicroseconds();
     }
   };
   bus_->Subscribe(channels.learner_status, take, kQueueCapacity);
@@ -67,6 +68,7 @@ void TrainingRun::Listen() {
 
 void TrainingRun::Start() {
   learner_ = std::make_unique<ChildProcess>(LearnerArguments(), folder_ / "learner.log");
+  heard_us_ = MonotonicMicroseconds();
   actors_.resize(static_cast<size_t>(experiment_.run().actors()));
 }
 
@@ -76,7 +78,24 @@ bool TrainingRun::Step(int64_t timeout_us) {
   }
   KeepActorsAlive();
   bus_->Poll(timeout_us);
+  GiveUpOnASilentLearner();
   return true;
+}
+
+double TrainingRun::SilentSeconds() const {
+  return static_cast<double>(MonotonicMicroseconds() - heard_us_) * 1e-6;
+}
+
+void TrainingRun::GiveUpOnASilentLearner() const {
+  const double patience_s = experiment_.run().patience_s();
+  if (patience_s > 0 && SilentSeconds() >= patience_s) {
+    throw Failure(
+        fmt::format("nothing was heard of the learner (pid {}) for {:.0f} s (run.patience_s), though it has "
+                    "not ended; its "
+                    "log {} ends with:{}",
+                    learner_->pid(), patience_s, (folder_ / "learner.log").string(),
+                    LastLines(folder_ / "learner.log", 3)));
+  }
 }
 
 int TrainingRun::End() {

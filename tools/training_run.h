@@ -31,7 +31,8 @@ class TrainingRun {
   void Start();
 
   /// Waits for a status, at most `timeout_us`, and starts again what has died. Returns whether the
-  /// learner is still running. Throws Failure with the actor's own words where one can never start.
+  /// learner is still running. Throws Failure with the actor's own words where one can never start, and
+  /// where the learner has said nothing for run.patience_s.
   bool Step(int64_t timeout_us);
 
   /// Ends learner and actors in order; returns the learner's exit status, 0 where the run is complete.
@@ -39,6 +40,8 @@ class TrainingRun {
 
   /// The learner's last status; none before the first.
   const std::optional<learner_status_t>& status() const { return status_; }
+  /// For how long the learner, which should five times a second, has said nothing.
+  double SilentSeconds() const;
 
   /// The summary that the learner has left in the folder, as JSON. Throws with the end of the learner's
   /// log where it has left none.
@@ -64,6 +67,7 @@ class TrainingRun {
   std::vector<std::string> WithBusOptions(std::vector<std::string> arguments);
   std::string RunIdText() const;
   void KeepActorsAlive();
+  void GiveUpOnASilentLearner() const;
   void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
   void EndActors();
 
@@ -74,6 +78,7 @@ class TrainingRun {
   int64_t run_id_;
   std::unique_ptr<Bus> bus_;
   std::optional<learner_status_t> status_;
+  int64_t heard_us_ = 0;  // the learner's last status, or its start
   std::unique_ptr<ChildProcess> learner_;
   std::vector<ActorPlace> actors_;
   uint64_t started_processes_ = 0;
