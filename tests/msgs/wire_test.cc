@@ -54,13 +54,6 @@ learner_status_t FullLearnerStatus() {
 }
 
 template <class Message>
-Bytes Encoded(const Message& message) {
-  Bytes bytes;
-  Encode(message, bytes);
-  return bytes;
-}
-
-template <class Message>
 void ExpectRoundTripAndRefusals(const Message& message) {
   const Bytes bytes = Encoded(message);
   EXPECT_LE(bytes.size(), kMaximumMessageBytes);
