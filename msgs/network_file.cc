@@ -17,12 +17,6 @@ namespace {
 
 constexpr char kFormat[] = "fresco-network-1";
 
-void Expect(bool condition, const std::string& origin, const std::string& problem) {
-  if (!condition) {
-    throw UsageError(origin + ": " + problem);
-  }
-}
-
 Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const std::string& origin) {
   const size_t expected = static_cast<size_t>(shape.parameter_count()) * sizeof(float);
   Expect(std::equal(file.layer_sizes().begin(), file.layer_sizes().end(), shape.layer_sizes().begin(),
