@@ -78,7 +78,7 @@ std::vector<std::string> ProcessesLeftBehind(const Path& folder) {
     const auto state = ReadProcess(pid);
     const bool child = state && state->parent == getpid();
     const bool at_work = state && state->program == "fresco-learner" &&
-                         CommandLine(pid).find(folder.string()) != std::string::npos;
+                         CommandLine(pid).find((folder / "").string()) != std::string::npos;
     if (child || at_work) {
       found.push_back(fmt::format("{} (process {})", state->program, pid));
     }

@@ -29,7 +29,7 @@ struct ProcessState {
 std::optional<ProcessState> ReadProcess(pid_t pid);
 
 /// Processes that ought to have ended: children of this one, and learners whose command line names
-/// `folder`. Each as "PROGRAM (process PID)".
+/// something in `folder`. Each as "PROGRAM (process PID)".
 std::vector<std::string> ProcessesLeftBehind(const std::filesystem::path& folder);
 
 /// Half-written files anywhere in `folder`.
