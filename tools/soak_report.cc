@@ -69,16 +69,16 @@ std::string RoundTable(const SoakReport& report) {
   std::string text = fmt::format("  {:<12}{:>8}{:>8}{:>10}{:>14}  {}\n", "round", "wall s", "faults",
                                  "resumed", "longest gap s", "weights");
   const auto line = [&](const std::string& name, const RoundResult& result, const std::string& word) {
-    text += fmt::format("  {:<12}{:>8.1f}{:>8}{:>10}{:>14.2f}  {}  {}\n", name, result.wall_s,
-                        result.faults.size(), result.resumptions, result.longest_pause_s, WeightsOf(result),
-                        word);
+    text +=
+        fmt::format("  {:<12}{:>8.1f}{:>8}{:>10}{:>14.2f}  {}{}\n", name, result.wall_s, result.faults.size(),
+                    result.resumptions, result.longest_pause_s, WeightsOf(result), word);
   };
   line("undisturbed", report.undisturbed, "");
   for (const SoakRoundReport& round : report.rounds) {
     line(std::to_string(round.number), round.result,
-         !round.result.failures.empty() ? "FAILED"
-         : round.result.facts           ? "equal"
-                                        : "not compared");
+         !round.result.failures.empty() ? "  FAILED"
+         : round.result.facts           ? "  equal"
+                                        : "  not compared");
   }
   return text;
 }

@@ -1,6 +1,8 @@
 """`fresco soak`: the same weights under every kind of fault, nothing left behind, and an end in order."""
+import contextlib
 import csv
 import json
+import os
 import pathlib
 import signal
 import sys
@@ -61,6 +63,23 @@ class Soak(FrescoTest):
         self.assertEqual(report["verdict"], "interrupted")
         self.assertEqual(report["failures"], [])
         self.assertEqual(processes_with(":17362"), [])
+
+    def test_fails_where_a_learner_ends_that_nobody_killed(self):
+        process = self.start_soak(17364, "--set", "schedule.episodes=1500")
+        run = str(self.folder / "soak" / "round-1")
+
+        def told_the_learner_to_end():
+            for learner in set(processes_with("fresco-learner")) & set(processes_with(run)):
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(learner, signal.SIGTERM)
+            return process.poll() is not None
+
+        wait_until(told_the_learner_to_end, "the soak to give up")
+        report = self.finish(process, 1)
+        self.assertEqual(report["verdict"], "failed")
+        self.assertIn("ended by itself", report["rounds"][0]["failures"][0])
+        self.assertIn("--seed 1 --first-round 1 --rounds 1", report["rounds"][0]["repeat"])
+        self.assertEqual(processes_with(":17364"), [])
 
     def test_says_which_folder_and_which_time_do_not_do(self):
         (self.folder / "soak").mkdir()
