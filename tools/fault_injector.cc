@@ -17,13 +17,13 @@ void FaultInjector::Step(TrainingRun& run, int64_t elapsed_us, bool quiet) {
   ContinueWhere(run, [&](const Stop& stop) { return elapsed_us >= stop.until_us; });
   MindGuests(elapsed_us);
   while (!quiet && elapsed_us >= next_.at_us) {
-    Inject(run, next_);
+    Inject(run, next_, elapsed_us);
     next_ = plan_.Next();
   }
 }
 
-void FaultInjector::Inject(TrainingRun& run, const Fault& fault) {
-  const int64_t until_us = fault.at_us + fault.duration_us;
+void FaultInjector::Inject(TrainingRun& run, const Fault& fault, int64_t elapsed_us) {
+  const int64_t until_us = elapsed_us + fault.duration_us;  // a fault is late where a resumption took long
   switch (fault.kind) {
     case FaultKind::kKillActor:
       run.SignalActor(fault.actor, SIGKILL);
@@ -77,7 +77,7 @@ void FaultInjector::MindGuests(int64_t elapsed_us) {
 }
 
 void FaultInjector::EndGuests() {
-  constexpr int64_t kPatienceUs = 3'000'000;
+  constexpr int64_t kPatienceUs = 10'000'000;
   MindGuests(0);
   for (Guest& guest : guests_) {
     guest.told = true;

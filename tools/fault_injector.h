@@ -47,7 +47,7 @@ class FaultInjector {
   bool TakeLearnerKill();
 
   const std::vector<InjectedFault>& faults() const { return faults_; }
-  /// Guests that ended by themselves; empty: none.
+  /// A guest that ended by itself, or not as it was told; empty: none.
   const std::string& guest_failure() const { return guest_failure_; }
 
  private:
@@ -62,7 +62,7 @@ class FaultInjector {
     bool told = false;
   };
 
-  void Inject(TrainingRun& run, const Fault& fault);
+  void Inject(TrainingRun& run, const Fault& fault, int64_t elapsed_us);
   void ContinueWhere(TrainingRun& run, const std::function<bool(const Stop&)>& over);
   void MindGuests(int64_t elapsed_us);
   void NoteGuestEnd(const Guest& guest, int status);
