@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/folder_lock.h"
 #include "core/stop_signal.h"
 #include "msgs/settings.h"
 #include "tools/installation.h"
@@ -107,13 +106,8 @@ int TrainAnew(const TrainOptions& options) {
   return Train(run, folder, text);
 }
 
-Resumption LockAndRead(const TrainOptions& options) {
-  const FolderLock lock(options.resume, kResumePatienceUs);
-  return ReadResumption(options.resume, SettingsFrom(options));
-}
-
 int GoOn(const TrainOptions& options) {
-  const Resumption resumption = LockAndRead(options);
+  const Resumption resumption = ReadInterruptedRun(options.resume, SettingsFrom(options));
   const bool text = options.format == "text";
   if (text) {
     fmt::print("going on after {} episodes; ",

@@ -106,6 +106,27 @@ int TrainingRun::End() {
   return status;
 }
 
+void TrainingRun::SignalLearner(int signal_number) {
+  learner_->Signal(signal_number);
+}
+
+void TrainingRun::SignalActor(int place, int signal_number) {
+  const auto& process = actors_.at(static_cast<size_t>(place)).process;
+  if (process != nullptr) {
+    process->Signal(signal_number);
+  }
+}
+
+std::vector<pid_t> TrainingRun::Pids() const {
+  std::vector<pid_t> pids = {learner_->pid()};
+  for (const ActorPlace& place : actors_) {
+    if (place.process != nullptr) {
+      pids.push_back(place.process->pid());
+    }
+  }
+  return pids;
+}
+
 std::string TrainingRun::Summary() const {
   if (!std::filesystem::exists(folder_ / "summary.json")) {
     throw Error(learner_->ExitStatus() == static_cast<int>(ErrorKind::kUsage) ? ErrorKind::kUsage
@@ -178,6 +199,7 @@ void TrainingRun::NoteDeath(ActorPlace& place, const std::filesystem::path& log,
   const int status = place.process->ExitStatus().value();
   const bool killed = status == 128 + SIGKILL || status == 128 + SIGTERM;  // by somebody else: it can start
   const bool early = !killed && now_us - place.process->started_us() < kEarlyUs;
+  actor_failures_ += killed ? 0 : 1;
   place.early_deaths = early ? place.early_deaths + 1 : 0;
   if (place.early_deaths >= kGiveUpAfter) {
     throw Failure(fmt::format("an actor ended {} times right after its start; its log {} ends with:{}",
@@ -199,6 +221,11 @@ void TrainingRun::EndActors() {
       place.process->End(kPatienceUs);
     }
   }
+}
+
+Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings) {
+  const FolderLock lock(folder, kResumePatienceUs);
+  return ReadResumption(folder, settings);
 }
 
 }  // namespace fresco

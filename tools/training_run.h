@@ -38,6 +38,15 @@ class TrainingRun {
   /// Ends learner and actors in order; returns the learner's exit status, 0 where the run is complete.
   int End();
 
+  // ---- For those who disturb and watch a run (`soak`).
+  /// A signal to the learner, or to the actor in a place; nothing where there is no process now.
+  void SignalLearner(int signal_number);
+  void SignalActor(int place, int signal_number);
+  /// The processes that were started and not seen to end, the learner first.
+  std::vector<pid_t> Pids() const;
+  /// How often a local actor ended by itself: with an error, or by a signal that nobody sends.
+  int actor_failures() const { return actor_failures_; }
+
   /// The learner's last status; none before the first.
   const std::optional<learner_status_t>& status() const { return status_; }
   /// For how long the learner, which should five times a second, has said nothing.
@@ -82,6 +91,11 @@ class TrainingRun {
   std::unique_ptr<ChildProcess> learner_;
   std::vector<ActorPlace> actors_;
   uint64_t started_processes_ = 0;
+  int actor_failures_ = 0;
 };
+
+/// What the run in `folder` goes on from, read once its learner has left the folder. Throws as
+/// ReadResumption does, and where a learner is at work there.
+Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings = {});
 
 }  // namespace fresco
