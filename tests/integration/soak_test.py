@@ -52,7 +52,7 @@ class Soak(FrescoTest):
                               for row in csv.DictReader(file)])
         shared = min(map(len, plans))
         self.assertGreaterEqual(shared, 1)
-        self.assertEqual(plans[0][:shared], plans[1][:shared], "a shorter round has fewer of the same faults")
+        self.assertEqual(plans[0][:shared], plans[1][:shared], "the shorter round has fewer of the same faults")
 
     def test_ends_in_order_on_ctrl_c(self):
         process = self.start_soak(17362, "--set", "schedule.episodes=1500")
