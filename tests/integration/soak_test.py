@@ -23,7 +23,7 @@ class Soak(FrescoTest):
         return json.loads(output)
 
     def test_finds_the_same_weights_under_every_kind_of_fault(self):
-        report = self.finish(self.start_soak(17360, "--minutes", 0.5, *SHORT), 0)
+        report = self.finish(self.start_soak(17390, "--minutes", 0.5, *SHORT), 0)
         self.assertEqual(report["verdict"], "equal")
         self.assertGreaterEqual(len(report["rounds"]), 1)
         self.assertEqual({r["weights_crc32c"] for r in report["rounds"]}, {report["undisturbed"]["weights_crc32c"]})
@@ -35,15 +35,15 @@ class Soak(FrescoTest):
         with open(self.folder / "soak" / "soak.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), sum(figures["number"] for figures in report["faults"].values()))
-        self.assertEqual(processes_with(":17360"), [])
+        self.assertEqual(processes_with(":17390"), [])
         self.assertEqual(list(self.folder.rglob("*.tmp*")), [])
 
     def test_has_a_round_again(self):
         arguments = ("--seed", 5, "--first-round", 9, "--rounds", 1, *SHORT)
-        report = self.finish(self.start_soak(17361, *arguments), 0)
+        report = self.finish(self.start_soak(17391, *arguments), 0)
         self.assertEqual([r["round"] for r in report["rounds"]], [9])
         first = pathlib.Path(self.folder / "soak").rename(self.folder / "first")
-        again = self.finish(self.start_soak(17361, *arguments), 0)
+        again = self.finish(self.start_soak(17391, *arguments), 0)
         self.assertEqual(again["rounds"][0]["disturbance"], report["rounds"][0]["disturbance"])
         plans = []
         for folder in (first, self.folder / "soak"):
@@ -52,20 +52,20 @@ class Soak(FrescoTest):
                               for row in csv.DictReader(file)])
         shared = min(map(len, plans))
         self.assertGreaterEqual(shared, 1)
-        self.assertEqual(plans[0][:shared], plans[1][:shared], "a shorter round has fewer of the same faults")
+        self.assertEqual(plans[0][:shared], plans[1][:shared], "the shorter round has fewer of the same faults")
 
     def test_ends_in_order_on_ctrl_c(self):
-        process = self.start_soak(17362, "--set", "schedule.episodes=1500")
+        process = self.start_soak(17392, "--set", "schedule.episodes=1500")
         log = self.folder / "soak" / "round-1" / "guest.log"
         wait_until(log.exists, "an actor from outside")
         process.send_signal(signal.SIGINT)
         report = self.finish(process, 1)
         self.assertEqual(report["verdict"], "interrupted")
         self.assertEqual(report["failures"], [])
-        self.assertEqual(processes_with(":17362"), [])
+        self.assertEqual(processes_with(":17392"), [])
 
     def test_fails_where_a_learner_ends_that_nobody_killed(self):
-        process = self.start_soak(17364, "--set", "schedule.episodes=1500")
+        process = self.start_soak(17394, "--set", "schedule.episodes=1500")
         run = str(self.folder / "soak" / "round-1")
 
         def told_the_learner_to_end():
@@ -79,7 +79,7 @@ class Soak(FrescoTest):
         self.assertEqual(report["verdict"], "failed")
         self.assertIn("ended by itself", report["rounds"][0]["failures"][0])
         self.assertIn("--seed 1 --first-round 1 --rounds 1", report["rounds"][0]["repeat"])
-        self.assertEqual(processes_with(":17364"), [])
+        self.assertEqual(processes_with(":17394"), [])
 
     def test_says_which_folder_and_which_time_do_not_do(self):
         (self.folder / "soak").mkdir()
@@ -87,10 +87,10 @@ class Soak(FrescoTest):
         _, errors = self.run_fresco("soak", "--out", self.folder / "soak", expect=2)
         self.assertIn("not empty", errors)
         (self.folder / "soak" / "notes").unlink()
-        report = self.finish(self.start_soak(17363, "--minutes", 0.05, "--set", "schedule.episodes=100000"), 1)
+        report = self.finish(self.start_soak(17393, "--minutes", 0.05, "--set", "schedule.episodes=100000"), 1)
         self.assertEqual(report["verdict"], "failed")
         self.assertIn("more --minutes", report["failures"][0])
-        self.assertEqual(processes_with(":17363"), [])
+        self.assertEqual(processes_with(":17393"), [])
 
 
 if __name__ == "__main__":
