@@ -14,6 +14,8 @@ namespace {
 
 constexpr int64_t kStatusPeriodUs = 100'000;
 constexpr int64_t kSilentRunUs = 10'000'000;
+// So far behind the newest message of its learner, a message is a recorded one that somebody sends again.
+constexpr int64_t kStaleUs = 1'000'000;
 constexpr int64_t kSendAgainUs = 50'000;  // the learner repeats an order every 60 ms
 constexpr int64_t kLargestIndex = int64_t{1} << 32;
 
@@ -57,9 +59,7 @@ void Actor::Subscribe(const std::string& channel, Handler handler) {
 void Actor::HandleRun(const run_t& message) {
   const RunIdentity identity = IdentityOf(message);
   if (session_ != nullptr && session_->identity == identity) {
-    session_->last_heard_us = attention_.now_us();
-    ++totals_.received_messages;
-    if (message.finished != 0) {
+    if (IsMine(identity, message.utime) && message.finished != 0) {
       spdlog::info("run {:016x} is over", static_cast<uint64_t>(identity.run_id));
       session_.reset();
       run_over_ = true;
@@ -100,6 +100,7 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
     const int capacity = options_.capacity.value_or(experiment.run().environments_per_actor());
     session_ = std::make_unique<Session>(std::move(experiment), IdentityOf(message), capacity);
     session_->last_heard_us = attention_.now_us();
+    session_->newest_utime = std::max<int64_t>(0, message.utime);
     ++totals_.runs;
     run_over_ = false;
     spdlog::info("serving run {:016x}, configuration {:08x}, {} environments",
@@ -111,21 +112,24 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
   }
 }
 
-bool Actor::IsMine(RunIdentity identity) {
+/// Counts a message of the run that is served, and refuses all others. A stale one could undo the window or
+/// end the run. Where the learner's clock was set back everything is stale, and the actor joins again.
+bool Actor::IsMine(RunIdentity identity, int64_t utime) {
   if (session_ == nullptr) {
     return false;
   }
-  if (session_->identity != identity) {
+  if (session_->identity != identity || utime < session_->newest_utime - kStaleUs) {
     ++totals_.rejected_messages;
     return false;
   }
+  session_->newest_utime = std::max(session_->newest_utime, utime);
   session_->last_heard_us = attention_.now_us();
   ++totals_.received_messages;
   return true;
 }
 
 void Actor::HandleOrders(const orders_t& message) {
-  if (!IsMine(IdentityOf(message))) {
+  if (!IsMine(IdentityOf(message), message.utime)) {
     return;
   }
   if (message.committed_orders < 0 || message.committed_orders > kLargestIndex) {
@@ -179,7 +183,7 @@ void Actor::KeepWindow(int64_t committed) {
 }
 
 void Actor::HandleWeights(NetworkKind kind, const weights_t& message) {
-  if (!IsMine(IdentityOf(message))) {
+  if (!IsMine(IdentityOf(message), message.utime)) {
     return;
   }
   NetworkStore& store = session_->store;

@@ -38,7 +38,7 @@ struct ActorTotals {
   int64_t completed_versions = 0;
   int64_t longest_assembly_us = 0;  ///< of a version, from its first chunk until it was complete
   int64_t received_messages = 0;    ///< of the runs served
-  int64_t rejected_messages = 0;    ///< malformed, of another run, configuration or key, corrupt
+  int64_t rejected_messages = 0;    ///< malformed, of another run, configuration or key, corrupt, stale
 };
 
 class Actor {
@@ -81,6 +81,7 @@ class Actor {
     std::map<int64_t, Order> waiting;  // by index: for networks or room
     std::map<int64_t, Flown> flown;    // by index
     int64_t last_heard_us = 0;         // by attention_
+    int64_t newest_utime = 0;          // of the learner's messages, by its clock
   };
 
   void HandleRun(const run_t& message);
@@ -100,7 +101,7 @@ class Actor {
   void AddSession(Session& session, int64_t now_us, actor_status_t& status) const;
   actor_status_t Status(int64_t now_us);
   std::string WaitsFor(const Order& order) const;
-  bool IsMine(RunIdentity identity);
+  bool IsMine(RunIdentity identity, int64_t utime);
 
   template <class Message, class Handler>
   void Subscribe(const std::string& channel, Handler handler);

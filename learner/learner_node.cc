@@ -190,14 +190,18 @@ void LearnerNode::HandleStatus(const actor_status_t& message) {
 }
 
 void LearnerNode::HandleRun(const run_t& message) {
-  const bool own = message.run_id == identity_.run_id && announced_;
-  if (!own && message.finished == 0) {
-    if (foreign_run_ != message.run_id) {
-      spdlog::warn("another run, {:016x}, is on {}: it does no harm, but shares the bandwidth",
-                   static_cast<uint64_t>(message.run_id), channels_.run);
-    }
-    foreign_run_ = message.run_id;
+  if (message.run_id == identity_.run_id && announced_) {
+    return;
   }
+  Reject(&BusCounters::rejected_foreign);
+  if (message.finished != 0) {
+    return;
+  }
+  if (foreign_run_ == 0) {  // once: whoever floods the bus with runs is not to fill the log
+    spdlog::warn("another run, {:016x}, is on {}: it does no harm, but shares the bandwidth",
+                 static_cast<uint64_t>(message.run_id), channels_.run);
+  }
+  foreign_run_ = message.run_id;
 }
 
 void LearnerNode::Step() {

@@ -75,6 +75,13 @@ void Announce(const Experiment& experiment, const std::filesystem::path& folder)
   std::fflush(stdout);
 }
 
+/// Who ended a run that is not complete; in the learner's own words where it was the learner.
+std::string Interruption(const std::filesystem::path& folder) {
+  return StopSignal::Requested()
+             ? "the run was interrupted"
+             : "the learner ended the run; its log ends with:" + LastLines(folder / "learner.log", 2) + "\n";
+}
+
 /// Runs it and shows what came out.
 int Train(TrainingRun& run, const std::filesystem::path& folder, bool text) {
   const int status = MindRun(run);
@@ -83,9 +90,8 @@ int Train(TrainingRun& run, const std::filesystem::path& folder, bool text) {
   std::fflush(stdout);
   WriteRunReport(folder);  // after the results: nothing that befalls a picture may hide them
   if (status != 0) {
-    fmt::print(stderr,
-               "fresco: the run was interrupted; what it learned so far is in {}\ngo on with it: {}\n",
-               folder.string(), run.ResumeCommand());
+    fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ngo on with it: {}\n",
+               Interruption(folder), folder.string(), run.ResumeCommand());
   } else if (text) {
     fmt::print("\nlook at it: {}\nfly it:     tools/fresco evaluate --policy {}\n",
                (folder / "report.html").string(), folder.string());

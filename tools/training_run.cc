@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <csignal>
 #include <random>
 
@@ -192,20 +191,14 @@ void TrainingRun::KeepActorsAlive() {
 }
 
 void TrainingRun::NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us) {
-  constexpr int64_t kEarlyUs = 2'000'000;
-  constexpr int kGiveUpAfter = 5;
-  constexpr int64_t kFirstPauseUs = 100'000;
-  constexpr int64_t kLongestPauseUs = 5'000'000;
   const int status = place.process->ExitStatus().value();
-  const bool killed = status == 128 + SIGKILL || status == 128 + SIGTERM;  // by somebody else: it can start
-  const bool early = !killed && now_us - place.process->started_us() < kEarlyUs;
-  actor_failures_ += killed ? 0 : 1;
-  place.early_deaths = early ? place.early_deaths + 1 : 0;
-  if (place.early_deaths >= kGiveUpAfter) {
+  actor_failures_ += RestartPolicy::EndedByOthers(status) ? 0 : 1;
+  const int64_t pause_us = place.restarts.NoteDeath(status, now_us - place.process->started_us());
+  if (place.restarts.hopeless()) {
     throw Failure(fmt::format("an actor ended {} times right after its start; its log {} ends with:{}",
-                              kGiveUpAfter, log.string(), LastLines(log, 3)));
+                              RestartPolicy::kHopelessAfter, log.string(), LastLines(log, 3)));
   }
-  place.start_at_us = now_us + (early ? std::min(kLongestPauseUs, kFirstPauseUs << place.early_deaths) : 0);
+  place.start_at_us = now_us + pause_us;
   place.process.reset();
 }
 

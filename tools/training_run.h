@@ -15,6 +15,7 @@
 #include "msgs/experiment.h"
 #include "msgs/wire.h"
 #include "tools/child_process.h"
+#include "tools/restart_policy.h"
 
 namespace fresco {
 
@@ -60,10 +61,10 @@ class TrainingRun {
   std::string ResumeCommand() const;
 
  private:
-  /// One local actor's place, and how often its process died at once.
+  /// One local actor's place.
   struct ActorPlace {
     std::unique_ptr<ChildProcess> process;
-    int early_deaths = 0;
+    RestartPolicy restarts;
     int64_t start_at_us = 0;
   };
 

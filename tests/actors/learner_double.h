@@ -32,12 +32,14 @@ class LearnerDouble {
   }
   template <class Message>
   void Send(const std::string& channel, Message message, RunIdentity identity) {
-    Stamp(message, identity, 1);
+    Stamp(message, identity, utime_);
     std::vector<std::byte> bytes;
     Encode(message, bytes);
     bus_->Publish(channel, bytes);
   }
 
+  /// When the messages from now on were sent, by the learner's clock.
+  void SetClock(int64_t utime) { utime_ = utime; }
   RunIdentity identity() const { return identity_; }
   /// Whole episodes of this run in the order of their arrival, and who sent them.
   const std::vector<Episode>& episodes() const { return episodes_; }
@@ -53,6 +55,7 @@ class LearnerDouble {
   Experiment experiment_;
   World world_;
   RunIdentity identity_;
+  int64_t utime_ = 1;
   Episode open_;  // the episode whose runs are arriving
   std::vector<Episode> episodes_;
   std::set<int64_t> senders_;

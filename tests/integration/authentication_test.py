@@ -13,25 +13,8 @@ TAG_BYTES = 32
 
 
 class Authentication(FrescoTest):
-    def key(self, name="key", content=None, mode=0o600):
-        path = self.folder / name
-        path.write_bytes(os.urandom(32) if content is None else content)
-        path.chmod(mode)
-        return path
-
     def start_actor(self, port, *arguments):
-        return self.start_to_end("--lcm-url", url(port), *arguments, program="fresco-actor")
-
-    def start_to_end(self, *arguments, **options):
-        """A process that does not outlive a test that fails."""
-        process = self.start(*arguments, **options)
-
-        def end():
-            if process.returncode is None:
-                process.kill()
-                process.communicate()
-        self.addCleanup(end)
-        return process
+        return self.start("--lcm-url", url(port), *arguments, program="fresco-actor")
 
     def stop_actor(self, process):
         process.send_signal(signal.SIGTERM)
@@ -42,7 +25,7 @@ class Authentication(FrescoTest):
     def train_among_strangers(self, port, name, key, friend, strangers):
         """A learner alone hears strangers only; the friend comes when the learner has said so in its log."""
         actors = [self.start_actor(port, *arguments) for arguments in strangers]
-        learner = self.start_to_end("train", "--config", CI_CONFIG, "--lcm-url", url(port), "--out",
+        learner = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(port), "--out",
                                     self.folder / name, "--actors", 0, "--format", "json", *key)
         log = self.folder / name / "learner.log"
         wait_until(lambda: log.exists() and "messages dropped" in log.read_text(), "the learner to hear strangers")
@@ -88,7 +71,7 @@ class Authentication(FrescoTest):
         arguments = ["--set", "schedule.episodes=1000", "--key-file", self.key()]
         whole = self.train(17415, "whole", *arguments)
         folder = self.folder / "stopped"
-        process = self.start_to_end("train", "--config", CI_CONFIG, "--lcm-url", url(17415), "--out", folder,
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17415), "--out", folder,
                                     *arguments)
         wait_until(lambda: (folder / "metrics.csv").exists(), "a first evaluation")
         process.send_signal(signal.SIGINT)

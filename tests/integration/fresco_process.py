@@ -30,6 +30,10 @@ def processes_with(argument):
     return [pid for pid in found if pid != os.getpid()]
 
 
+def actors_on(port):
+    return sorted(set(processes_with("fresco-actor")) & set(processes_with(url(port))))
+
+
 def wait_until(condition, what, timeout_s=60):
     deadline = time.monotonic() + timeout_s
     while not condition():
@@ -45,8 +49,18 @@ class FrescoTest(unittest.TestCase):
         self.addCleanup(self._folder.cleanup)
 
     def start(self, *arguments, program="fresco", **options):
-        return subprocess.Popen([BIN / program, *map(str, arguments)], stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, **options)
+        return self.start_command([BIN / program, *map(str, arguments)], **options)
+
+    def start_command(self, command, **options):
+        """A process that does not outlive a test that fails."""
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+
+        def end():
+            if process.returncode is None:
+                process.kill()
+                process.communicate()
+        self.addCleanup(end)
+        return process
 
     def run_fresco(self, *arguments, expect=0, program="fresco", **options):
         process = self.start(*arguments, program=program, **options)
@@ -58,6 +72,33 @@ class FrescoTest(unittest.TestCase):
         output, _ = self.run_fresco("train", "--config", config, "--lcm-url", url(port), "--out",
                                     self.folder / name, "--format", "json", *arguments, expect=expect)
         return json.loads(output)
+
+    def summary_of(self, process):
+        output, errors = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 0, errors)
+        return json.loads(output)
+
+    def key(self, name="key", content=None, mode=0o600):
+        path = self.folder / name
+        path.write_bytes(os.urandom(32) if content is None else content)
+        path.chmod(mode)
+        return path
+
+    def learner_of(self, name):
+        """Process id of the learner that works in the folder; None: there is none."""
+        found = set(processes_with("fresco-learner")) & set(processes_with(str(self.folder / name)))
+        return min(found) if found else None
+
+    def run_id(self, name):
+        arguments = pathlib.Path(f"/proc/{self.learner_of(name)}/cmdline").read_text().split("\0")
+        return int(arguments[arguments.index("--run-id") + 1], 16)
+
+    def evaluations(self, name):
+        path = self.folder / name / "metrics.csv"
+        return max(0, len(path.read_text().splitlines()) - 1) if path.exists() else 0
+
+    def wait_for_evaluation(self, name):
+        wait_until(lambda: self.evaluations(name) > 0, "a first evaluation")
 
 
 def read_log(path):

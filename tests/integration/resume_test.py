@@ -28,10 +28,6 @@ class Resume(FrescoTest):
                                          expect=expect)
         return output, errors
 
-    def learner_of(self, name):
-        found = set(processes_with("fresco-learner")) & set(processes_with(str(self.folder / name)))
-        return min(found) if found else None
-
     def crc_of(self, output):
         return json.loads(output)["weights_crc32c"]
 

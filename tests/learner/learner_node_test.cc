@@ -62,6 +62,23 @@ TEST_F(LearnerNodeTest, ShowsAWarningInItsStatusUntilItIsTakenBack) {
   EXPECT_EQ(NextStatus().warning, "");
 }
 
+TEST_F(LearnerNodeTest, CountsTheAnnouncementsOfOtherRunsOnly) {
+  NextStatus();  // after its own
+  EXPECT_EQ(node_.counters().rejected, 0);
+  EXPECT_EQ(node_.foreign_run(), 0);
+  for (const int64_t run_id : {kRunId + 1, kRunId + 2}) {
+    run_t other{};
+    other.run_id = run_id;
+    std::vector<std::byte> bytes;
+    Encode(other, bytes);
+    bus_->Publish(channels_.run, bytes);
+    NextStatus();
+    EXPECT_EQ(node_.foreign_run(), run_id);
+  }
+  EXPECT_EQ(node_.counters().rejected_foreign, 2);
+  EXPECT_EQ(node_.counters().rejected, 2);
+}
+
 TEST_F(LearnerNodeTest, CountsHowLongTheTrainerHasWaited) {
   EXPECT_EQ(node_.StarvedSeconds(), 0);
   node_.WriteOrder(Order{});

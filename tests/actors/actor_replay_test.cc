@@ -1,0 +1,83 @@
+// Recorded messages of the same run that somebody sends again, while the run goes on.
+#include "tests/actors/actor_fixture.h"
+
+namespace fresco {
+namespace {
+
+constexpr int64_t kSecondUs = 1'000'000;
+constexpr int64_t kNow = 1'000'000 * kSecondUs;
+
+class ActorReplay : public ActorTest {
+ protected:
+  void SetUp() override {
+    learner_.SetClock(kNow);
+    BeginRun();
+  }
+
+  /// As it was sent two seconds before.
+  void SendOld(const std::function<void()>& send) {
+    learner_.SetClock(kNow - 2 * kSecondUs);
+    send();
+    learner_.SetClock(kNow);
+  }
+};
+
+TEST_F(ActorReplay, OfOrdersTakesNoOrderAwayThatWaits) {
+  auto orders = Orders(100, 1);
+  orders[0].current_version = 1;
+  learner_.SendOrders(orders, 95);
+  Step();
+  SendOld([&] { learner_.SendOrders(Orders(3, 2), 2); });
+  Step();
+  EXPECT_EQ(NextStatus().open_orders, 1);
+  EXPECT_EQ(NextStatus().oldest_open_order, 100);
+}
+
+TEST_F(ActorReplay, OfTheRunsEndDoesNotEndIt) {
+  SendOld([&] { learner_.AnnounceRun([](run_t& part) { part.finished = 1; }); });
+  Step();
+  EXPECT_TRUE(actor_.has_run());
+  learner_.AnnounceRun([](run_t& part) { part.finished = 1; });
+  Step();
+  EXPECT_FALSE(actor_.has_run());
+}
+
+TEST_F(ActorReplay, OfNetworksDisplacesNoneThatIsHeld) {
+  const auto held = NextStatus().held_count;
+  SendOld([&] {
+    for (int version = 1; version < 40; ++version) {
+      learner_.SendVersion({NetworkKind::kCurrent, version}, *current_);
+    }
+  });
+  const actor_status_t status = NextStatus();
+  EXPECT_EQ(status.held_count, held);
+  EXPECT_GT(status.rejected_messages, 0);
+}
+
+TEST_F(ActorReplay, IsToldFromALateMessage) {
+  learner_.SetClock(kNow - kSecondUs / 10);
+  learner_.SendOrders(Orders(0, 2));
+  FlyAll();
+  ExpectEpisodes(0, {0, 1});
+  EXPECT_EQ(actor_.totals().rejected_messages, 0);
+}
+
+TEST_F(ActorReplay, IsNotHearingALearnerWhoseClockWasSetBackSoTheActorJoinsAgain) {
+  learner_.SetClock(kNow - 3600 * kSecondUs);
+  int seconds = 0;
+  while (actor_.totals().runs < 2 && ++seconds < 20) {
+    for (int i = 0; i < 20; ++i) {
+      Step(kSecondUs / 20);
+    }
+    learner_.AnnounceRun();
+  }
+  EXPECT_LT(seconds, 20);
+  learner_.SendVersion({NetworkKind::kCurrent, 0}, *current_);
+  learner_.SendVersion({NetworkKind::kTarget, 0}, *target_);
+  learner_.SendOrders(Orders(0, 2));
+  FlyAll();
+  ExpectEpisodes(0, {0, 1});
+}
+
+}  // namespace
+}  // namespace fresco
