@@ -22,7 +22,7 @@ target_compile_options(fresco_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast -Wcast-qual -Wunused -Wnull-dereference
   # gcc 12 reports its own AVX-512 intrinsics wherever Eigen uses them
-  -Wno-maybe-uninitialized
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
   $<$<BOOL:${FRESCO_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # fresco_library(name sources... ): a folder's library, compiled with the common options.

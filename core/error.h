@@ -35,4 +35,11 @@ inline Error UsageError(const std::string& message) {
   return {ErrorKind::kUsage, message};
 }
 
+/// Throws UsageError "origin: problem" unless the condition holds: what reads files checks them with it.
+inline void Expect(bool condition, const std::string& origin, const std::string& problem) {
+  if (!condition) {
+    throw UsageError(origin + ": " + problem);
+  }
+}
+
 }  // namespace fresco

@@ -19,7 +19,7 @@ enum class RandomPurpose : uint32_t {
   kReplaySampling = 2,   ///< mini-batches; indices: update low, update high
   kInitialWeights = 3,   ///< indices: layer, 0
   kSensorPlacement = 4,  ///< indices: 0, 0
-  kTest = 5,             ///< tests only
+  kTest = 5,             ///< tests and soak runs only
 };
 
 /// The stream of (seed, purpose, first index, second index). Small, copyable; not thread-safe.

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <memory>
+#include <string_view>
 
 #include "core/error.h"
 #include "msgs/proto/options.pb.h"
@@ -89,9 +89,10 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
     return {text, -1};
   }
   PathPart part{text.substr(0, bracket), -1};
-  const char* end = text.data() + text.size() - 1;
-  const auto [parsed, error] = std::from_chars(text.data() + bracket + 1, end, part.index);
-  if (text.back() != ']' || error != std::errc() || parsed != end || part.index < 0) {
+  const std::string_view digits = std::string_view(text).substr(bracket + 1, text.size() - bracket - 2);
+  const char* end = digits.data() + digits.size();
+  const auto [parsed, error] = std::from_chars(digits.data(), end, part.index);
+  if (!text.ends_with(']') || error != std::errc() || parsed != end || part.index < 0) {
     throw UsageError(fmt::format("--set {}: expected name[index], found \"{}\"", path, text));
   }
   return part;
@@ -107,31 +108,34 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
       fmt::format("--set {}: there is no field \"{}\"; {} has: {}", path, name, descriptor.name(), known));
 }
 
-/// Whether nothing but `field` is set.
-bool HasNoOther(const Message& message, const FieldDescriptor& field) {
-  std::vector<const FieldDescriptor*> fields;
-  message.GetReflection()->ListFields(message, &fields);
-  return std::all_of(fields.begin(), fields.end(), [&](const FieldDescriptor* set) { return set == &field; });
+/// One value, of the whole text: whatever follows it is an error.
+void AddValue(Message& message, const FieldDescriptor& field, const std::string& path,
+              const std::string& value) {
+  struct FirstError : google::protobuf::io::ErrorCollector {
+    void AddError(int, int, const std::string& error) override { text = text.empty() ? ": " + error : text; }
+    std::string text;
+  } errors;
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&errors);
+  const bool quoted = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !value.starts_with('"');
+  if (IsMessage(field) ||
+      !parser.ParseFieldValueFromString(quoted ? "\"" + value + "\"" : value, &field, &message)) {
+    throw UsageError(fmt::format("--set {}: \"{}\" is not a value of this field ({}){}", path, value,
+                                 field.cpp_type_name(), errors.text));
+  }
 }
 
 void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& path,
              const std::string& value) {
-  const bool quoted = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !value.starts_with('"');
-  const std::string text = field.is_repeated() ? "[" + value + "]" : quoted ? "\"" + value + "\"" : value;
-  google::protobuf::TextFormat::Parser parser;
-  struct Silent : google::protobuf::io::ErrorCollector {
-    void AddError(int, int, const std::string& error) override { text = error; }
-    std::string text;
-  } errors;
-  parser.RecordErrorsTo(&errors);
-  const std::unique_ptr<Message> parsed(message.New());
-  if (IsMessage(field) || !parser.ParseFromString(field.name() + ": " + text, parsed.get()) ||
-      !HasNoOther(*parsed, field)) {
-    throw UsageError(fmt::format("--set {}: \"{}\" is not a value of this field ({}){}", path, value,
-                                 field.cpp_type_name(), errors.text.empty() ? "" : ": " + errors.text));
-  }
   message.GetReflection()->ClearField(&message, &field);
-  message.MergeFrom(*parsed);
+  if (!field.is_repeated()) {
+    return AddValue(message, field, path, value);
+  }
+  for (size_t begin = 0; begin <= value.size();) {
+    const size_t end = std::min(value.find(',', begin), value.size());
+    AddValue(message, field, path, value.substr(begin, end - begin));
+    begin = end + 1;
+  }
 }
 
 void SetFieldBelow(Message& message, const std::string& rest, const std::string& path,
@@ -150,7 +154,7 @@ void SetFieldBelow(Message& message, const std::string& rest, const std::string&
     return SetLeaf(message, *field, path, value);
   }
   const Reflection& reflection = *message.GetReflection();
-  if (!IsMessage(*field) || field->is_repeated() != (part.index >= 0) ||
+  if (dot == std::string::npos || !IsMessage(*field) || field->is_repeated() != (part.index >= 0) ||
       (field->is_repeated() && part.index >= reflection.FieldSize(message, field))) {
     throw UsageError(
         fmt::format("--set {}: \"{}\" has no parts, or no such index", path, rest.substr(0, dot)));

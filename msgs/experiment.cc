@@ -5,6 +5,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/atomic_file.h"
 #include "core/crc32c.h"
@@ -151,6 +152,30 @@ Scenario CheckedScenario(const proto::Scenario& from) {
   return scenario;
 }
 
+void CheckBatch(const char* field, int64_t columns, const MlpShape& shape) {
+  const std::vector<int>& sizes = shape.layer_sizes();
+  const int64_t units = std::accumulate(sizes.begin(), sizes.end(), int64_t{0});
+  if (columns * units > kMaximumActivations) {
+    throw UsageError(fmt::format("{}: {} columns of {} units are too many; allowed: a product of at most {}",
+                                 field, columns, units, kMaximumActivations));
+  }
+}
+
+void CheckNetwork(const Experiment& experiment) {
+  const int layers = experiment.agent().hidden_layers_size();
+  if (layers > kMaximumHiddenLayers) {
+    throw UsageError(
+        fmt::format("agent.hidden_layers: {} layers; allowed: at most {}", layers, kMaximumHiddenLayers));
+  }
+  const MlpShape shape = experiment.network_shape();
+  if (shape.parameter_count() > kMaximumParameters) {
+    throw UsageError(fmt::format("agent.hidden_layers: {} parameters of the network; allowed: at most {}",
+                                 shape.parameter_count(), kMaximumParameters));
+  }
+  CheckBatch("agent.batch_size", experiment.agent().batch_size(), shape);
+  CheckBatch("run.environments_per_actor", experiment.run().environments_per_actor(), shape);
+}
+
 std::string Print(const google::protobuf::Message& message) {
   std::string text;
   google::protobuf::TextFormat::PrintToString(message, &text);
@@ -179,6 +204,7 @@ Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& or
   try {
     ChannelsWithPrefix(config.run().channel_prefix());
     experiment.scenario_ = CheckedScenario(config.scenario());
+    CheckNetwork(experiment);
   } catch (const Error& error) {
     throw UsageError(origin + ": " + error.what());
   }

@@ -18,6 +18,12 @@ namespace fresco {
 /// path=value settings, in order: {"schedule.seed", "3"}.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+/// An actor takes its configuration from the network: what it says must fit memory. Some dozens of versions
+/// of a network are held at a time, and the outputs of all its units for a batch.
+inline constexpr int64_t kMaximumParameters = 10'000'000;
+inline constexpr int64_t kMaximumActivations = 40'000'000;
+inline constexpr int kMaximumHiddenLayers = 16;
+
 class Experiment {
  public:
   /// Parses text format, applies the settings, fills in defaults and checks everything. `origin`

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "core/atomic_file.h"
 #include "core/crc32c.h"
@@ -16,21 +17,14 @@ namespace {
 
 constexpr char kFormat[] = "fresco-network-1";
 
-void Expect(bool condition, const std::filesystem::path& path, const std::string& problem) {
-  if (!condition) {
-    throw UsageError(path.string() + ": " + problem);
-  }
-}
-
-Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape,
-                    const std::filesystem::path& path) {
+Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const std::string& origin) {
   const size_t expected = static_cast<size_t>(shape.parameter_count()) * sizeof(float);
   Expect(std::equal(file.layer_sizes().begin(), file.layer_sizes().end(), shape.layer_sizes().begin(),
                     shape.layer_sizes().end()),
-         path, "its layer sizes contradict its configuration");
-  Expect(file.parameters().size() == expected, path,
+         origin, "its layer sizes contradict its configuration");
+  Expect(file.parameters().size() == expected, origin,
          fmt::format("expected {} bytes of parameters, found {}", expected, file.parameters().size()));
-  Expect(Crc32c(std::as_bytes(std::span(file.parameters()))) == file.crc32c(), path,
+  Expect(Crc32c(std::as_bytes(std::span(file.parameters()))) == file.crc32c(), origin,
          "the CRC of its parameters does not hold: the file is damaged");
   Vector parameters(shape.parameter_count());
   std::memcpy(parameters.data(), file.parameters().data(), expected);
@@ -62,16 +56,23 @@ void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& ne
   WriteFileAtomically(path, SerializeNetworkFile(network));
 }
 
-StoredNetwork ReadNetworkFile(const std::filesystem::path& path) {
+StoredNetwork ParseNetworkFile(std::string_view content, const std::string& origin) {
   proto::NetworkFile file;
   Expect(
-      file.ParseFromString(ReadFile(path)) && file.has_format(), path,
+      content.size() <= std::numeric_limits<int>::max() &&
+          file.ParseFromArray(content.data(), static_cast<int>(content.size())) && file.has_format(),
+      origin,
       "not a network file of Fresco, or cut short; expected best.network or final.network of a run's folder");
-  Expect(file.format() == kFormat, path, fmt::format("expected format {}, found {}", kFormat, file.format()));
-  Experiment experiment = Experiment::Parse(file.config_text(), path.string() + " (its configuration)");
+  Expect(file.format() == kFormat, origin,
+         fmt::format("expected format {}, found {}", kFormat, file.format()));
+  Experiment experiment = Experiment::Parse(file.config_text(), origin + " (its configuration)");
   const MlpShape shape = experiment.network_shape();
-  Vector parameters = ParametersOf(file, shape, path);
+  Vector parameters = ParametersOf(file, shape, origin);
   return {std::move(experiment), file.version(), file.updates(), std::move(parameters)};
+}
+
+StoredNetwork ReadNetworkFile(const std::filesystem::path& path) {
+  return ParseNetworkFile(ReadFile(path), path.string());
 }
 
 }  // namespace fresco

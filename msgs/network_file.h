@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "msgs/experiment.h"
 #include "nn/mlp.h"
@@ -24,8 +25,9 @@ std::string SerializeNetworkFile(const StoredNetwork& network);
 /// Written atomically; throws Failure where the disk does not take it.
 void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network);
 
-/// Throws UsageError naming the file and what is wrong: not a network file, truncated, a CRC that
-/// does not hold, sizes that contradict the configuration.
+/// Throws UsageError naming `origin` (the file) and what is wrong: not a network file, truncated, a CRC
+/// that does not hold, sizes that contradict the configuration.
+StoredNetwork ParseNetworkFile(std::string_view content, const std::string& origin);
 StoredNetwork ReadNetworkFile(const std::filesystem::path& path);
 
 }  // namespace fresco

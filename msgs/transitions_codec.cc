@@ -87,7 +87,7 @@ bool ReadTransition(const World& world, const transitions_t& message, size_t i, 
     run.next_masks.push_back(static_cast<uint8_t>(byte));
   }
   return message.action[i] >= 0 && message.action[i] < world.actions() && std::isfinite(message.reward[i]) &&
-         !std::isnan(message.td_error[i]);
+         std::isfinite(message.td_error[i]);
 }
 
 }  // namespace

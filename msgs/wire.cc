@@ -1,5 +1,8 @@
 #include "msgs/wire.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "bus/authenticated_bus.h"
 #include "core/check.h"
 #include "core/crc32c.h"
@@ -23,7 +26,7 @@ int32_t BigEndianInt32(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes) {
-  if (bytes.size() < kTrailerBytes || bytes.size() > kMaximumMessageBytes) {
+  if (bytes.size() < kTrailerBytes || bytes.size() > kMaximumEncodedBytes + kTrailerBytes) {
     return {};
   }
   const auto encoding = bytes.first(bytes.size() - kTrailerBytes);
@@ -56,6 +59,25 @@ bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list
       return false;
     }
     offset += sizeof(int32_t);
+  }
+  return true;
+}
+
+bool TextsAreAllowed(std::span<const std::byte> encoding, size_t offset, int count) {
+  for (int text = 0; text < count; ++text) {
+    const size_t begin = offset + sizeof(int32_t);
+    if (encoding.size() <= begin) {
+      return false;
+    }
+    const int32_t length = BigEndianInt32(encoding.subspan(offset, sizeof(int32_t)));
+    if (length < 1 || static_cast<size_t>(length) > encoding.size() - begin) {
+      return false;
+    }
+    const auto characters = encoding.subspan(begin, static_cast<size_t>(length));
+    if (std::find(characters.begin(), characters.end(), std::byte{0}) != std::prev(characters.end())) {
+      return false;
+    }
+    offset = begin + static_cast<size_t>(length);
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #include <exception>
 #include <initializer_list>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "fresco/actor_status_t.hpp"
@@ -88,18 +89,42 @@ void AppendTrailer(int encoded, std::vector<std::byte>& bytes);
 /// Whether the counts in the encoding lie in 0 .. maxima.
 bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list<int32_t> maxima);
 
+/// Whether `count` texts, one behind the other from `offset` on, lie within the encoding and are as an
+/// encoder writes them: a length of four bytes and one NUL, at the end. LCM's decoders subtract one from any
+/// length and take any byte for the NUL; its encoders stop at the first.
+bool TextsAreAllowed(std::span<const std::byte> encoding, size_t offset, int count);
+
+/// How many texts a message has. They stand behind the fields of fixed size.
+template <class Message>
+inline constexpr int kTexts = 0;
+template <>
+inline constexpr int kTexts<actor_status_t> = 1;
+template <>
+inline constexpr int kTexts<learner_status_t> = 2;
+
+template <class Message>
+bool TextsAreAllowed(std::span<const std::byte> encoding, const Message&) {
+  if constexpr (kTexts < Message >> 0) {
+    constexpr size_t kEmptyTextBytes = sizeof(int32_t) + 1;
+    const auto empty_bytes = static_cast<size_t>(Message{}.getEncodedSize());
+    return TextsAreAllowed(encoding, empty_bytes - kTexts<Message> * kEmptyTextBytes, kTexts<Message>);
+  }
+  return true;
+}
+
 /// Decodes a message; false where it is corrupt, of another type, malformed, oversized or longer
-/// than its content. Never throws, never allocates more than the limits allow.
+/// than its content. What decodes encodes to the same bytes again. Never throws, never allocates more than
+/// the limits allow.
 template <class Message>
 bool Decode(std::span<const std::byte> bytes, Message& message) {
   const std::span<const std::byte> encoding = WithoutTrailer(bytes);
-  if (!CountsAreAllowed(encoding, CountMaxima(message))) {
+  if (!CountsAreAllowed(encoding, CountMaxima(message)) || !TextsAreAllowed(encoding, message)) {
     return false;
   }
   try {
     const int size = static_cast<int>(encoding.size());
     return message.decode(encoding.data(), 0, size) == size;
-  } catch (const std::exception&) {  // a string of negative length, say
+  } catch (const std::exception&) {
     return false;
   }
 }

@@ -41,7 +41,7 @@ StoredNetwork ReadPolicy(const std::string& policy) {
   }
   const std::string content = ReadFile(path);
   if (!LooksLikeCheckpoint(content)) {
-    return ReadNetworkFile(path);
+    return ParseNetworkFile(content, path.string());
   }
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
   const std::optional<BestNetwork>& best = checkpoint.training.best;

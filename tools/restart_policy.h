@@ -16,8 +16,11 @@ class RestartPolicy {
   /// So many processes in succession that ended by themselves right after their start: none can start.
   static constexpr int kHopelessAfter = 5;
 
-  /// Notes a death and returns the pause before the next start. `exit_status` as ChildProcess::ExitStatus:
-  /// one that was ended by SIGKILL or SIGTERM was ended by somebody else, and says nothing about the next.
+  /// Whether a process was ended by somebody else, by SIGKILL or SIGTERM; `exit_status` as
+  /// ChildProcess::ExitStatus. That says nothing about the next.
+  static bool EndedByOthers(int exit_status);
+
+  /// Notes a death and returns the pause before the next start.
   int64_t NoteDeath(int exit_status, int64_t lived_us);
 
   bool hopeless() const { return own_ends_ >= kHopelessAfter; }

@@ -13,5 +13,6 @@ using Command = std::function<int()>;
 void AddTrain(CLI::App& app, Command& command);
 void AddEvaluate(CLI::App& app, Command& command);
 void AddFigures(CLI::App& app, Command& command);
+void AddSoak(CLI::App& app, Command& command);
 
 }  // namespace fresco

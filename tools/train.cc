@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/folder_lock.h"
 #include "core/stop_signal.h"
 #include "msgs/settings.h"
 #include "tools/installation.h"
@@ -57,10 +56,13 @@ std::filesystem::path DefaultFolder() {
 /// Minds the run until it ends or the program is asked to stop; returns the learner's exit status.
 int MindRun(TrainingRun& run) {
   constexpr int64_t kPollUs = 50'000;
+  constexpr double kSilentS = 3;
   LiveLine line(true);
   run.Start();
   while (!StopSignal::Requested() && run.Step(kPollUs)) {
-    if (run.status()) {
+    if (run.SilentSeconds() > kSilentS) {
+      line.Show(fmt::format("nothing heard of the learner for {:.0f} s", run.SilentSeconds()));
+    } else if (run.status()) {
       line.Show(ProgressLine(*run.status()));
     }
   }
@@ -110,13 +112,8 @@ int TrainAnew(const TrainOptions& options) {
   return Train(run, folder, text);
 }
 
-Resumption LockAndRead(const TrainOptions& options) {
-  const FolderLock lock(options.resume, kResumePatienceUs);
-  return ReadResumption(options.resume, SettingsFrom(options));
-}
-
 int GoOn(const TrainOptions& options) {
-  const Resumption resumption = LockAndRead(options);
+  const Resumption resumption = ReadInterruptedRun(options.resume, SettingsFrom(options));
   const bool text = options.format == "text";
   if (text) {
     fmt::print("going on after {} episodes; ",

@@ -59,6 +59,7 @@ void TrainingRun::Listen() {
     learner_status_t status{};
     if (Decode(bytes, status) && status.run_id == run_id_) {
       status_ = std::move(status);
+      heard_us_ = MonotonicMicroseconds();
     }
   };
   bus_->Subscribe(channels.learner_status, take, kQueueCapacity);
@@ -66,6 +67,7 @@ void TrainingRun::Listen() {
 
 void TrainingRun::Start() {
   learner_ = std::make_unique<ChildProcess>(LearnerArguments(), folder_ / "learner.log");
+  heard_us_ = MonotonicMicroseconds();
   actors_.resize(static_cast<size_t>(experiment_.run().actors()));
 }
 
@@ -75,7 +77,24 @@ bool TrainingRun::Step(int64_t timeout_us) {
   }
   KeepActorsAlive();
   bus_->Poll(timeout_us);
+  GiveUpOnASilentLearner();
   return true;
+}
+
+double TrainingRun::SilentSeconds() const {
+  return static_cast<double>(MonotonicMicroseconds() - heard_us_) * 1e-6;
+}
+
+void TrainingRun::GiveUpOnASilentLearner() const {
+  const double patience_s = experiment_.run().patience_s();
+  if (patience_s > 0 && SilentSeconds() >= patience_s) {
+    throw Failure(
+        fmt::format("nothing was heard of the learner (pid {}) for {:.0f} s (run.patience_s), though it has "
+                    "not ended; its "
+                    "log {} ends with:{}",
+                    learner_->pid(), patience_s, (folder_ / "learner.log").string(),
+                    LastLines(folder_ / "learner.log", 3)));
+  }
 }
 
 int TrainingRun::End() {
@@ -84,6 +103,27 @@ int TrainingRun::End() {
   const int status = learner_->End(kPatienceUs);
   EndActors();
   return status;
+}
+
+void TrainingRun::SignalLearner(int signal_number) {
+  learner_->Signal(signal_number);
+}
+
+void TrainingRun::SignalActor(int place, int signal_number) {
+  const auto& process = actors_.at(static_cast<size_t>(place)).process;
+  if (process != nullptr) {
+    process->Signal(signal_number);
+  }
+}
+
+std::vector<pid_t> TrainingRun::Pids() const {
+  std::vector<pid_t> pids = {learner_->pid()};
+  for (const ActorPlace& place : actors_) {
+    if (place.process != nullptr) {
+      pids.push_back(place.process->pid());
+    }
+  }
+  return pids;
 }
 
 std::string TrainingRun::Summary() const {
@@ -152,6 +192,7 @@ void TrainingRun::KeepActorsAlive() {
 
 void TrainingRun::NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us) {
   const int status = place.process->ExitStatus().value();
+  actor_failures_ += RestartPolicy::EndedByOthers(status) ? 0 : 1;
   const int64_t pause_us = place.restarts.NoteDeath(status, now_us - place.process->started_us());
   if (place.restarts.hopeless()) {
     throw Failure(fmt::format("an actor ended {} times right after its start; its log {} ends with:{}",
@@ -173,6 +214,11 @@ void TrainingRun::EndActors() {
       place.process->End(kPatienceUs);
     }
   }
+}
+
+Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings) {
+  const FolderLock lock(folder, kResumePatienceUs);
+  return ReadResumption(folder, settings);
 }
 
 }  // namespace fresco

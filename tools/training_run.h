@@ -32,14 +32,26 @@ class TrainingRun {
   void Start();
 
   /// Waits for a status, at most `timeout_us`, and starts again what has died. Returns whether the
-  /// learner is still running. Throws Failure with the actor's own words where one can never start.
+  /// learner is still running. Throws Failure with the actor's own words where one can never start, and
+  /// where the learner has said nothing for run.patience_s.
   bool Step(int64_t timeout_us);
 
   /// Ends learner and actors in order; returns the learner's exit status, 0 where the run is complete.
   int End();
 
+  // ---- For those who disturb and watch a run (`soak`).
+  /// A signal to the learner, or to the actor in a place; nothing where there is no process now.
+  void SignalLearner(int signal_number);
+  void SignalActor(int place, int signal_number);
+  /// The processes that were started and not seen to end, the learner first.
+  std::vector<pid_t> Pids() const;
+  /// How often a local actor ended by itself: with an error, or by a signal that nobody sends.
+  int actor_failures() const { return actor_failures_; }
+
   /// The learner's last status; none before the first.
   const std::optional<learner_status_t>& status() const { return status_; }
+  /// For how long the learner, which should five times a second, has said nothing.
+  double SilentSeconds() const;
 
   /// The summary that the learner has left in the folder, as JSON. Throws with the end of the learner's
   /// log where it has left none.
@@ -65,6 +77,7 @@ class TrainingRun {
   std::vector<std::string> WithBusOptions(std::vector<std::string> arguments);
   std::string RunIdText() const;
   void KeepActorsAlive();
+  void GiveUpOnASilentLearner() const;
   void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
   void EndActors();
 
@@ -75,9 +88,15 @@ class TrainingRun {
   int64_t run_id_;
   std::unique_ptr<Bus> bus_;
   std::optional<learner_status_t> status_;
+  int64_t heard_us_ = 0;  // the learner's last status, or its start
   std::unique_ptr<ChildProcess> learner_;
   std::vector<ActorPlace> actors_;
   uint64_t started_processes_ = 0;
+  int actor_failures_ = 0;
 };
+
+/// What the run in `folder` goes on from, read once its learner has left the folder. Throws as
+/// ReadResumption does, and where a learner is at work there.
+Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings = {});
 
 }  // namespace fresco

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 
 #include "core/error.h"
@@ -15,8 +16,10 @@ constexpr double kSmallest = 1e-6;
 constexpr double kLargest = 1e6;
 constexpr int kMaximumSensors = 300;
 constexpr int kMaximumCellsASide = 1000;
+// Cells times sensors: World holds a byte for each, and a network's input up to eight. An actor takes its
+// scenario from the network, so nothing in it may eat the memory.
+constexpr int64_t kMaximumCellsTimesSensors = 10'000'000;
 constexpr int kMaximumSlots = 10000;  // so that an AoI fits int16_t
-constexpr double kMaximumEnergyJ = 1e12;
 // M / (B tau), bits per second and hertz; the signal-to-noise ratio wanted is two to this power.
 constexpr double kMaximumSpectralEfficiency = 100;
 // Of speed_mps * slot_s against cell_m: decimal fractions may not multiply exactly.
@@ -53,6 +56,16 @@ void CheckSensors(const std::vector<Sensor>& sensors) {
   if (total_weight < kSmallest) {
     throw UsageError(fmt::format("scenario.sensor: the weights sum to {}; allowed: a sum of at least {}",
                                  total_weight, kSmallest));
+  }
+}
+
+void CheckSize(const Scenario& scenario) {
+  const auto sensors = static_cast<int64_t>(scenario.sensors.size());
+  if (int64_t{scenario.columns} * scenario.rows * sensors > kMaximumCellsTimesSensors) {
+    throw UsageError(
+        fmt::format("scenario.grid: {} x {} cells and {} sensors are too many; allowed: a product of "
+                    "at most {}",
+                    scenario.columns, scenario.rows, sensors, kMaximumCellsTimesSensors));
   }
 }
 
@@ -125,6 +138,7 @@ void CheckRadio(const Radio& radio, double slot_s) {
 void CheckScenario(const Scenario& scenario) {
   CheckGridAndTime(scenario);
   CheckSensors(scenario.sensors);
+  CheckSize(scenario);
   RequireWithin("scenario.coverage_radius_m", scenario.coverage_radius_m, 0, kLargest);
   RequireWithin("scenario.initial_energy_j", scenario.initial_energy_j, kSmallest, kMaximumEnergyJ);
   CheckRadio(scenario.radio, scenario.slot_s);

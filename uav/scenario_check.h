@@ -8,6 +8,9 @@
 
 namespace fresco {
 
+/// Of a whole flight's and of a slot's energy: keeps every margin finite as the float that it is on the wire.
+inline constexpr double kMaximumEnergyJ = 1e12;
+
 /// Throws UsageError "<path>: <value> is out of range; allowed: <low> to <high>" unless the value
 /// is in the closed interval (NaN never is).
 void RequireWithin(std::string_view path, double value, double low, double high);

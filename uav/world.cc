@@ -68,6 +68,8 @@ World::World(Scenario scenario) : scenario_(Checked(std::move(scenario))) {
 void World::DeriveEnergies() {
   const double flying_j = PropulsionPower(scenario_.rotor, scenario_.speed_mps) * scenario_.slot_s;
   const double hovering_j = PropulsionPower(scenario_.rotor, 0) * scenario_.slot_s;
+  RequireWithin("scenario.rotor: the energy in joules of a slot's flight", flying_j, 0, kMaximumEnergyJ);
+  RequireWithin("scenario.rotor: the energy in joules of a slot's hover", hovering_j, 0, kMaximumEnergyJ);
   const double largest_j =
       std::max(scenario_.initial_energy_j, scenario_.slots * std::max(flying_j, hovering_j));
   constexpr int kSignificandBits = 53;

@@ -131,6 +131,19 @@ class Train(FrescoTest):
             self.assertEqual(summary["episodes"], 12, config)
             self.assertGreater(summary["updates"], 0, config)
 
+    def test_gives_up_on_a_learner_that_is_silent(self):
+        folder = self.folder / "silent"
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17309), "--out", folder,
+                             "--set", "schedule.episodes=1000000", "--set", "run.patience_s=4")
+        wait_until(lambda: (folder / "metrics.csv").exists(), "a first evaluation")
+        [learner] = set(processes_with("fresco-learner")) & set(processes_with(str(folder)))
+        os.kill(learner, signal.SIGSTOP)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("nothing was heard of the learner", errors)
+        self.assertIn("run.patience_s", errors)
+        wait_until(lambda: not processes_with(str(folder)), "the learner to be ended")
+
     def test_refuses_a_port_that_another_run_uses(self):
         first = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17307), "--out", self.folder / "first",
                            "--set", "schedule.episodes=1000000")

@@ -106,6 +106,7 @@ TEST(EpisodeRun, RefusesValuesThatTheWorldCannotHave) {
       [](auto& m) { m.aoi[1][2] = 71; },
       [](auto& m) { m.reward[0] = std::numeric_limits<float>::quiet_NaN(); },
       [](auto& m) { m.td_error[0] = std::nanf(""); },
+      [](auto& m) { m.td_error[0] = -std::numeric_limits<float>::infinity(); },
       [](auto& m) { m.energy_margin_j[0] = std::numeric_limits<float>::infinity(); },
       [](auto& m) { m.first_transition = -1; },
       [](auto& m) { m.first_transition = 60; },

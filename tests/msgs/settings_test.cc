@@ -77,14 +77,14 @@ TEST(Settings, ReachEntriesByTheirIndex) {
 TEST(Settings, RefuseIndexesThatAreNotThere) {
   for (const std::string path :
        {"scenario.sensor[2].x_m", "scenario.sensor[-1].x_m", "scenario.sensor[x].x_m",
-        "scenario.sensor[0.x_m", "scenario.sensor[].x_m", "scenario.sensor.x_m", "scenario[0].slots",
-        "scenario.sensor[99999999999].x_m"}) {
+        "scenario.sensor[0.x_m", "scenario.sensor[.x_m", "scenario.sensor[", "[", "scenario.sensor[].x_m",
+        "scenario.sensor.x_m", "scenario[0].slots", "scenario.sensor[99999999999].x_m"}) {
     EXPECT_THAT(ErrorWith(path + "=1", kTwoSensors), HasSubstr("--set " + path)) << path;
   }
 }
 
 TEST(Settings, RefuseAnIndexAtTheEndOfThePath) {
-  for (const std::string path : {"agent.hidden_layers[0]", "schedule.seed[0]"}) {
+  for (const std::string path : {"agent.hidden_layers[0]", "schedule.seed[0]", "scenario.sensor[0]"}) {
     EXPECT_THAT(ErrorWith(path + "=1"), HasSubstr("--set " + path)) << path;
   }
 }
@@ -108,7 +108,9 @@ TEST(Settings, NameTheValueThatIsNotOneOfTheField) {
   for (const std::string argument :
        {"schedule.seed=abc", "schedule.seed=-1", "schedule.seed=", "agent.batch_size=1.5",
         "agent.double_dqn=perhaps", "agent.hidden_layers=64,,64", "agent=3", "agent.batch_size=99999999999",
-        "run.lcm_url=a\"b", "schedule.seed=3 episodes: 4"}) {
+        "agent.hidden_layers=64,", "agent.hidden_layers=64] batch_size: 3 hidden_layers: [2",
+        "run.lcm_url=a\"b", "run.lcm_url=\"a\" actors: 3", "schedule.seed=3 episodes: 4",
+        "schedule.seed=3\nepisodes: 4"}) {
     const std::string path = argument.substr(0, argument.find('='));
     EXPECT_THAT(ErrorWith(argument), AllOf(HasSubstr("--set " + path), HasSubstr("is not a value")))
         << argument;

@@ -3,7 +3,9 @@
 
 #include <cstring>
 #include <limits>
+#include <utility>
 
+#include "core/crc32c.h"
 #include "msgs/wire.h"
 #include "tests/msgs/message_samples.h"
 
@@ -151,16 +153,55 @@ void ExpectStringsOfAbsurdLengthRejected(Message message, std::string Message::*
   const int32_t lowest = std::numeric_limits<int32_t>::min();
   for (const int32_t length :
        {lowest, lowest + 1, -500'000'000, -1, 0, 2'000, std::numeric_limits<int32_t>::max()}) {
-    std::vector<std::byte> bytes = Encoded(message);
-    PutInt32(bytes, offset, length);
-    EXPECT_FALSE(Decodes<Message>(bytes)) << length;
+    std::vector<std::byte> encoding = Encoded(message);
+    encoding.resize(encoding.size() - kTrailerBytes);
+    PutInt32(encoding, offset, length);
+    AppendTrailer(static_cast<int>(encoding.size()), encoding);
+    EXPECT_FALSE(Decodes<Message>(encoding)) << length;
   }
 }
 
 TEST(HostileString, IsRejectedWhereItsLengthIsAbsurd) {
   RandomStream stream = TestStream(6);
   ExpectStringsOfAbsurdLengthRejected(ActorStatusOf(stream, 3, 3, 0), &actor_status_t::host);
-  ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 5, 0), &learner_status_t::warning);
+  ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
+}
+
+template <class Message>
+void ExpectOneNulAtTheEndOf(Message message, std::string Message::*text) {
+  message.*text = "text";
+  const size_t begin = static_cast<size_t>(Message{}.getEncodedSize()) - 1;
+  const std::vector<std::byte> bytes = Encoded(message);
+  EXPECT_TRUE(Decodes<Message>(bytes));
+  for (const auto& [place, byte] : {std::pair<size_t, char>{0, 0}, {2, 0}, {4, 't'}}) {
+    std::vector<std::byte> encoding(bytes.begin(), bytes.end() - kTrailerBytes);
+    ASSERT_NE(encoding.at(begin + place), static_cast<std::byte>(byte));
+    encoding[begin + place] = static_cast<std::byte>(byte);
+    AppendTrailer(static_cast<int>(encoding.size()), encoding);
+    EXPECT_FALSE(Decodes<Message>(encoding)) << place;
+  }
+}
+
+TEST(HostileString, HasOneNulAtItsEnd) {
+  RandomStream stream = TestStream(8);
+  ExpectOneNulAtTheEndOf(ActorStatusOf(stream, 2, 1, 0), &actor_status_t::host);
+  ExpectOneNulAtTheEndOf(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
+}
+
+TEST(HostileString, IsRefusedWhereItsMessageIsTooLargeToBeEncodedAgain) {
+  RandomStream stream = TestStream(9);
+  learner_status_t message = LearnerStatusOf(stream, 0, 0);
+  const auto largest = static_cast<int>(kMaximumEncodedBytes) - message.getEncodedSize();
+  for (const int length : {largest, largest + 1}) {
+    message.waiting_for.assign(static_cast<size_t>(length), 'w');
+    std::vector<std::byte> bytes(static_cast<size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    const uint32_t crc = Crc32c(bytes);
+    for (const int shift : {24, 16, 8, 0}) {
+      bytes.push_back(static_cast<std::byte>(crc >> shift));
+    }
+    EXPECT_EQ(Decodes<learner_status_t>(bytes), length == largest);
+  }
 }
 
 TEST(HostileWireDeathTest, AMessageTooLargeForAFrameIsAProgrammersError) {

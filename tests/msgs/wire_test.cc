@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include "bus/authenticated_bus.h"
 #include "core/crc32c.h"
 #include "core/random.h"
 #include "msgs/order.h"
 #include "msgs/weights_codec.h"
+#include "tests/msgs/message_samples.h"
 
 namespace fresco {
 namespace {
@@ -49,13 +51,6 @@ learner_status_t FullLearnerStatus() {
   message.waiting_for = std::string(kMaximumTextBytes, 'w');
   message.warning = std::string(kMaximumTextBytes, 'w');
   return message;
-}
-
-template <class Message>
-Bytes Encoded(const Message& message) {
-  Bytes bytes;
-  Encode(message, bytes);
-  return bytes;
 }
 
 template <class Message>
@@ -172,6 +167,17 @@ TEST(Weights, ChunksCoverTheParametersExactly) {
     }
     EXPECT_EQ(joined, values);
   }
+}
+
+TEST(Wire, IsReadByLcmsOwnDecoderWhateverStandsBehindTheMessage) {
+  RandomStream stream(3, RandomPurpose::kTest, 77, 0);
+  const learner_status_t message = RandomMessage<learner_status_t>(stream);
+  std::vector<std::byte> bytes = Encoded(message);
+  bytes.resize(bytes.size() + kAuthenticationTagBytes, std::byte{0xa5});
+  learner_status_t decoded{};
+  EXPECT_EQ(decoded.decode(bytes.data(), 0, static_cast<int>(bytes.size())), message.getEncodedSize());
+  EXPECT_EQ(decoded.waiting_for, message.waiting_for);
+  EXPECT_EQ(decoded.updates, message.updates);
 }
 
 }  // namespace

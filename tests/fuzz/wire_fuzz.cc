@@ -1,0 +1,61 @@
+// Decode of every message type. The first byte chooses the type and whether the rest has a trailer of its
+// own or gets the right one here. What decodes must encode to the same bytes again.
+#include "core/check.h"
+#include "msgs/order.h"
+#include "msgs/weights_codec.h"
+#include "tests/fuzz/fuzz_input.h"
+
+namespace fresco {
+namespace {
+
+constexpr uint8_t kOwnTrailer = 0x80;
+constexpr int64_t kParameters = 58'196;  // the paper's network
+
+template <class Message>
+void CheckContent(const Message&) {}
+
+void CheckContent(const weights_t& message) {
+  const int chunk = ChunkIndex(message, kParameters);
+  FRESCO_CHECK(chunk >= -1 && chunk < ChunkCount(kParameters));
+  FRESCO_CHECK(chunk < 0 || message.offset + message.value_count <= kParameters);
+}
+
+void CheckContent(const orders_t& message) {
+  for (const order_t& wire : message.orders) {
+    if (Order order; FromWire(wire, order)) {
+      FRESCO_CHECK(order.index >= 0 && order.epsilon >= 0 && order.epsilon <= 1);
+      FRESCO_CHECK(order.current_version >= 0 && order.target_version >= 0);
+    }
+  }
+}
+
+template <class Message>
+void CheckOne(const std::vector<std::byte>& bytes) {
+  Message message{};
+  if (!Decode(bytes, message)) {
+    return;
+  }
+  std::vector<std::byte> again;
+  Encode(message, again);
+  FRESCO_CHECK(again == bytes);
+  CheckContent(message);
+}
+
+constexpr void (*kChecks[])(const std::vector<std::byte>&) = {
+    CheckOne<run_t>,     CheckOne<orders_t>,       CheckOne<transitions_t>,
+    CheckOne<weights_t>, CheckOne<actor_status_t>, CheckOne<learner_status_t>,
+};
+
+}  // namespace
+}  // namespace fresco
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  using namespace fresco;
+  if (size == 0) {
+    return 0;
+  }
+  const auto rest = std::as_bytes(std::span(data + 1, size - 1));
+  const auto check = kChecks[(data[0] & ~kOwnTrailer) % std::size(kChecks)];
+  check((data[0] & kOwnTrailer) != 0 ? std::vector(rest.begin(), rest.end()) : WithTrailer(rest));
+  return 0;
+}

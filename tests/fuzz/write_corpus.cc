@@ -1,0 +1,199 @@
+// write_corpus DIRECTORY CONFIG...: valid samples for every fuzz target, a file each in DIRECTORY/TARGET, and
+// words of text formats in DIRECTORY/TARGET.dictionary. Made at build time, from the formats as they are.
+#include <google/protobuf/descriptor.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "msgs/checkpoint_file.h"
+#include "msgs/episode.h"
+#include "msgs/network_file.h"
+#include "tests/msgs/message_samples.h"
+#include "uav/environment.h"
+
+namespace fresco {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// Samples of one target, numbered.
+class Corpus {
+ public:
+  Corpus(const std::filesystem::path& directory, const std::string& target) : directory_(directory / target) {
+    std::filesystem::remove_all(directory_);
+    std::filesystem::create_directories(directory_);
+  }
+  void Add(std::string_view sample) {
+    WriteFileAtomically(directory_ / ("sample_" + std::to_string(count_++)), sample);
+  }
+  void Add(std::span<const std::byte> sample) {
+    Add(std::string_view(reinterpret_cast<const char*>(sample.data()), sample.size()));
+  }
+
+ private:
+  std::filesystem::path directory_;
+  int count_ = 0;
+};
+
+template <class Message>
+void AddMessages(RandomStream& stream, uint8_t type, Corpus& corpus) {
+  constexpr uint8_t kOwnTrailer = 0x80;
+  for (const uint8_t flag : std::array<uint8_t, 3>{0, 0, kOwnTrailer}) {
+    Bytes sample = {static_cast<std::byte>(type | flag)};
+    const Bytes encoded = Encoded(RandomMessage<Message>(stream));
+    const auto kept = static_cast<int64_t>(encoded.size() - (flag != 0 ? 0 : kTrailerBytes));
+    sample.insert(sample.end(), encoded.begin(), encoded.begin() + kept);
+    corpus.Add(sample);
+  }
+}
+
+void WriteWire(const std::filesystem::path& directory) {
+  Corpus corpus(directory, "wire_fuzz");
+  RandomStream stream(1, RandomPurpose::kTest, 0, 0);
+  uint8_t type = 0;  // in wire_fuzz.cc's order
+  AddMessages<run_t>(stream, type++, corpus);
+  AddMessages<orders_t>(stream, type++, corpus);
+  AddMessages<transitions_t>(stream, type++, corpus);
+  AddMessages<weights_t>(stream, type++, corpus);
+  AddMessages<actor_status_t>(stream, type++, corpus);
+  AddMessages<learner_status_t>(stream, type++, corpus);
+}
+
+/// A flight of random actions, safe ones where `mask` says so.
+Episode Fly(const World& world, int64_t order_index, MaskOptions mask) {
+  Environment environment(world);
+  RandomStream stream(2, RandomPurpose::kTest, static_cast<uint32_t>(order_index), 0);
+  std::vector<uint8_t> allowed(static_cast<size_t>(world.actions()));
+  Episode episode;
+  episode.order_index = order_index;
+  episode.states.push_back(environment.state());
+  while (environment.outcome() == Outcome::kFlying) {
+    environment.WriteMask(mask, allowed);
+    uint32_t action = 0;
+    do {
+      action = stream.NextBelow(static_cast<uint32_t>(world.actions()));
+    } while (allowed[action] == 0);
+    episode.rewards.push_back(
+        static_cast<float>(environment.Step(world.ActionAt(static_cast<int>(action))).reward));
+    episode.actions.push_back(static_cast<int16_t>(action));
+    episode.td_errors.push_back(static_cast<float>(stream.NextUniform()));
+    episode.states.push_back(environment.state());
+    environment.WriteMask({}, allowed);
+    AppendMask(allowed, episode.next_masks);
+  }
+  episode.outcome = environment.outcome();
+  return episode;
+}
+
+void WriteTransitions(const std::filesystem::path& directory) {
+  Corpus corpus(directory, "transitions_fuzz");
+  const World world(Experiment::Parse("", "the defaults").scenario());
+  for (int64_t order = 0; order < 4; ++order) {
+    Bytes sample;
+    SendEpisode(world, Fly(world, order, {order % 2 == 0, false}), {1, 2}, 3, [&](auto bytes) {
+      const auto encoding = bytes.first(bytes.size() - kTrailerBytes);
+      sample.push_back(static_cast<std::byte>(encoding.size() >> 8));
+      sample.push_back(static_cast<std::byte>(encoding.size()));
+      sample.insert(sample.end(), encoding.begin(), encoding.end());
+    });
+    corpus.Add(sample);
+  }
+}
+
+void WriteTexts(const std::filesystem::path& directory, std::span<char*> configs) {
+  Corpus experiments(directory, "experiment_fuzz");
+  for (const char* path : configs) {
+    experiments.Add(ReadFile(path));
+    experiments.Add(Experiment::Load(path).Text());
+  }
+  Corpus settings(directory, "settings_fuzz");
+  for (const char* lines :
+       {"schedule.seed=3\nagent.hidden_layers=64,64\n1f", "scenario.sensor[0].x_m=30\n0123456789abcdef",
+        "run.lcm_url=udpm://239.255.76.67:7667?ttl=1\nrun.channel_prefix=\"A_b-9\"",
+        "agent.double_dqn=true\nagent.exponential.unit=EPISODES\nscenario.coverage_radius_m=1e2"}) {
+    settings.Add(lines);
+  }
+  Corpus urls(directory, "lcm_url_fuzz");
+  for (const char* url : {"udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304", "udpm://224.0.0.1:1",
+                          "tcpq://localhost:7700", "memq://", "FRESCO", "FRESCO_2"}) {
+    urls.Add(url);
+  }
+}
+
+void AddWords(const google::protobuf::Descriptor& descriptor, std::set<std::string>& words) {
+  for (int i = 0; i < descriptor.field_count(); ++i) {
+    const google::protobuf::FieldDescriptor& field = *descriptor.field(i);
+    words.insert(field.name());
+    if (field.message_type() != nullptr) {
+      AddWords(*field.message_type(), words);
+    }
+  }
+}
+
+/// The names of a configuration's fields, for the targets that read text format.
+void WriteDictionaries(const std::filesystem::path& directory) {
+  std::set<std::string> words = {"{",    "}",   "[",   "]",   ":",  "=",
+                                 "true", "inf", "nan", "1e9", "-1", "2147483647"};
+  AddWords(*proto::ExperimentConfig::descriptor(), words);
+  std::string dictionary;
+  for (const std::string& word : words) {
+    dictionary += "\"" + word + "\"\n";
+  }
+  for (const std::string target :
+       {"experiment_fuzz", "settings_fuzz", "network_file_fuzz", "checkpoint_fuzz"}) {
+    WriteFileAtomically(directory / (target + ".dictionary"), dictionary);
+  }
+}
+
+/// Of a field so small that whole files fit an input.
+Experiment SmallExperiment() {
+  return Experiment::Parse(
+      "scenario { grid { columns: 2 rows: 2 } slots: 4 start { row: 0 } stop { row: 1 } random_sensors "
+      "{ count: 1 } } agent { hidden_layers: [2] }",
+      "the small experiment");
+}
+
+void WriteFiles(const std::filesystem::path& directory) {
+  const Experiment experiment = SmallExperiment();
+  const Vector parameters = InitialParameters(experiment.network_shape(), 1);
+  Corpus(directory, "network_file_fuzz").Add(SerializeNetworkFile({experiment, 3, 300, parameters}));
+  Checkpoint checkpoint{experiment, 1, 2};
+  TrainingState& training = checkpoint.training;
+  training.orders.push_back({{.index = 0, .epsilon = 0.5, .seed = 1}, 0});
+  training.versions.push_back({NetworkKind::kCurrent, 0, 0, std::make_shared<const Vector>(parameters)});
+  training.current = training.target = parameters;
+  training.adam = {1, 0.9, 0.999, parameters, parameters};
+  training.actions = {0, 1, 2};
+  training.best = {{1, 100, 5, true, {30, 5.0, 30.0}}, std::make_shared<const Vector>(parameters)};
+  training.last_evaluation = training.best->evaluation;
+  checkpoint.metrics = "version,total_aoi\n1,30\n";
+  checkpoint.counters = {{"received", 3}};
+  Corpus(directory, "checkpoint_fuzz").Add(SerializeCheckpoint(checkpoint));
+}
+
+}  // namespace
+}  // namespace fresco
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: write_corpus DIRECTORY CONFIG...\n");
+    return 2;
+  }
+  try {
+    const std::filesystem::path directory = argv[1];
+    fresco::WriteWire(directory);
+    fresco::WriteTransitions(directory);
+    fresco::WriteTexts(directory, std::span(argv + 2, static_cast<size_t>(argc - 2)));
+    fresco::WriteFiles(directory);
+    fresco::WriteDictionaries(directory);
+    return 0;
+  } catch (const fresco::Error& error) {
+    std::fprintf(stderr, "write_corpus: %s\n", error.what());
+    return error.exit_status();
+  }
+}
