@@ -35,11 +35,10 @@ int64_t DrawRunId() {
   return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
 }
 
-int Run(const Experiment& experiment, const BusOptions& bus_options, LearnerOptions options) {
-  const std::unique_ptr<Bus> bus = OpenBus(experiment.run().lcm_url(), bus_options);
+int Run(const Experiment& experiment, Bus& bus, LearnerOptions options) {
   spdlog::info("run {:016x}, configuration {:08x}, on {}", static_cast<uint64_t>(options.run_id),
                experiment.hash(), experiment.run().lcm_url());
-  return LearnerProcess(experiment, *bus, std::move(options)).Run() ? 0 : 1;
+  return LearnerProcess(experiment, bus, std::move(options)).Run() ? 0 : 1;
 }
 
 int64_t RunIdFrom(const Arguments& arguments) {
@@ -50,17 +49,20 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
   if (arguments.out.empty()) {
     throw UsageError("--out: name the run's folder (or --resume one)");
   }
+  const Experiment experiment = Experiment::Load(arguments.config, settings);
+  // Before the folder: a wrong URL or key file leaves nothing behind.
+  const std::unique_ptr<Bus> bus = OpenBus(experiment.run().lcm_url(), arguments.bus);
   RunFolder::Make(arguments.out);
   const FolderLock lock(arguments.out);
-  return Run(Experiment::Load(arguments.config, settings), arguments.bus,
-             {arguments.out, RunIdFrom(arguments)});
+  return Run(experiment, *bus, {arguments.out, RunIdFrom(arguments)});
 }
 
 int Resume(const Arguments& arguments, const Settings& settings) {
   const FolderLock lock(arguments.resume, kResumePatienceUs);
   Resumption resumption = ReadResumption(arguments.resume, settings);
   const int64_t run_id = resumption.checkpoint ? resumption.checkpoint->run_id : RunIdFrom(arguments);
-  return Run(resumption.experiment, arguments.bus,
+  const std::unique_ptr<Bus> bus = OpenBus(resumption.experiment.run().lcm_url(), arguments.bus);
+  return Run(resumption.experiment, *bus,
              {arguments.resume, run_id, RunFolder::Use::kResume, std::move(resumption.checkpoint)});
 }
 
