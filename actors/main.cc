@@ -6,12 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
-#include <random>
 
 #include "actors/actor.h"
-#include "bus/open_bus.h"
+#include "bus/command_line.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/identifier.h"
 #include "core/state_signal.h"
 #include "core/stop_signal.h"
 #include "core/version.h"
@@ -35,15 +35,9 @@ std::string HostName() {
   return name;
 }
 
-/// Names this process among the actors; has no influence on what it flies.
-int64_t DrawActorId() {
-  std::random_device device;
-  return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
-}
-
 ActorOptions OptionsFrom(const Arguments& arguments) {
   ActorOptions options;
-  options.actor_id = DrawActorId();
+  options.actor_id = DrawIdentifier();
   options.host = HostName();
   options.pid = static_cast<int32_t>(getpid());
   if (!arguments.run_id.empty()) {
@@ -79,12 +73,7 @@ int Main(int argc, char** argv) {
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->capture_default_str();
   app.add_option("--run-id", arguments.run_id, "Serve this run only (16 hexadecimal digits)");
-  app.add_option_function<std::string>(
-      "--key-file", [&](const std::string& file) { arguments.bus.key_file = file; },
-      "The run's key: take only messages that are authenticated with it");
-  app.add_option_function<std::string>(
-      "--disturb", [&](const std::string& text) { arguments.bus.disturbance = ParseLossOptions(text); },
-      "For tests: lose, repeat, delay and corrupt what is sent, e.g. drop=0.01,delay=0.05,seed=3");
+  AddBusOptions(app, arguments.bus);
   app.add_option("--environments", arguments.environments, "Episodes flown side by side; 0: as the run says")
       ->check(CLI::Range(0, 4096));
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");

@@ -170,10 +170,10 @@ void LearnerProcess::WriteCheckpoint() {
   checkpoints_.longest_pause_us = std::max(checkpoints_.longest_pause_us, MonotonicMicroseconds() - begin_us);
 }
 
-/// The search may outlast a short training; an interrupted run does not wait for it.
+/// The search may outlast a short training; a run that did not come to its end does not wait for it.
 void LearnerProcess::WaitForOptimum() {
   constexpr int64_t kReportUs = 200'000;
-  while (!StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
+  while (trainer_.finished() && !StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
     node_.SetFinishing(
         fmt::format("the search for the exact optimum, {:.0f} s more at most", optimum_->seconds_left()));
     Report();

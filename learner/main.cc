@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <random>
 
-#include "bus/open_bus.h"
+#include "bus/command_line.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
+#include "core/identifier.h"
 #include "core/state_signal.h"
 #include "core/stop_signal.h"
 #include "core/version.h"
@@ -29,12 +29,6 @@ struct Arguments {
   BusOptions bus;
 };
 
-/// Names the run; has no influence on what it learns.
-int64_t DrawRunId() {
-  std::random_device device;
-  return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
-}
-
 int Run(const Experiment& experiment, Bus& bus, LearnerOptions options) {
   spdlog::info("run {:016x}, configuration {:08x}, on {}", static_cast<uint64_t>(options.run_id),
                experiment.hash(), experiment.run().lcm_url());
@@ -42,7 +36,7 @@ int Run(const Experiment& experiment, Bus& bus, LearnerOptions options) {
 }
 
 int64_t RunIdFrom(const Arguments& arguments) {
-  return arguments.run_id.empty() ? DrawRunId() : ParseRunId(arguments.run_id);
+  return arguments.run_id.empty() ? DrawIdentifier() : ParseRunId(arguments.run_id);
 }
 
 int RunAnew(const Arguments& arguments, const Settings& settings) {
@@ -81,12 +75,7 @@ int Main(int argc, char** argv) {
       ->excludes(config)
       ->excludes(out);
   app.add_option("--run-id", arguments.run_id, "Name of the run (16 hexadecimal digits); default: drawn");
-  app.add_option_function<std::string>(
-      "--key-file", [&](const std::string& file) { arguments.bus.key_file = file; },
-      "The run's key: take only messages that are authenticated with it");
-  app.add_option_function<std::string>(
-      "--disturb", [&](const std::string& text) { arguments.bus.disturbance = ParseLossOptions(text); },
-      "For tests: lose, repeat, delay and corrupt what is sent, e.g. drop=0.01,delay=0.05,seed=3");
+  AddBusOptions(app, arguments.bus);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -78,6 +78,10 @@ void ChildProcess::Signal(int signal_number) {
 
 int ChildProcess::End(int64_t patience_us) {
   Signal(SIGTERM);
+  return WaitForEnd(patience_us);
+}
+
+int ChildProcess::WaitForEnd(int64_t patience_us) {
   const int64_t deadline_us = MonotonicMicroseconds() + patience_us;
   while (!ExitStatus()) {
     if (MonotonicMicroseconds() > deadline_us) {

@@ -27,8 +27,11 @@ class ChildProcess {
   /// The exit status once it has ended: 0.. , or 128 + signal.
   std::optional<int> ExitStatus();
 
-  /// SIGTERM; SIGKILL where it is still there after `patience_us`. Returns its exit status.
+  /// SIGTERM, then WaitForEnd.
   int End(int64_t patience_us);
+  /// SIGKILL where it is still there after `patience_us`. Returns its exit status. For a process that was told
+  /// to end before: a second SIGTERM would kill it.
+  int WaitForEnd(int64_t patience_us);
   void Signal(int signal_number);
 
  private:

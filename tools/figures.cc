@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "bus/command_line.h"
 #include "core/error.h"
 #include "msgs/settings.h"
 #include "tools/figure_writer.h"
@@ -88,9 +89,7 @@ void AddFigures(CLI::App& app, Command& command) {
   figures->add_option("--parallel", options->parallel, "Runs side by side; default: as many as processors")
       ->check(CLI::Range(1, 256));
   figures->add_option("--lcm-url", options->lcm_url, "Where learners and actors meet");
-  figures->add_option_function<std::string>(
-      "--key-file", [options](const std::string& file) { options->bus.key_file = file; },
-      "Take only messages that are authenticated with this file's key");
+  AddBusOptions(*figures, options->bus);
   figures->add_flag("--quick", options->quick, "A small version: few points, short training");
   figures->callback([options, &command] { command = [options] { return WriteFigures(*options); }; });
 }

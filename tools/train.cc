@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "bus/command_line.h"
 #include "core/stop_signal.h"
 #include "msgs/settings.h"
 #include "tools/installation.h"
@@ -145,13 +146,7 @@ void AddTrain(CLI::App& app, Command& command) {
       ->excludes(seed)
       ->excludes(out);
   train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
-  train->add_option_function<std::string>(
-      "--key-file", [options](const std::string& file) { options->bus.key_file = file; },
-      "Take only messages that are authenticated with this file's key; the actors that join need it, too");
-  train->add_option_function<std::string>(
-      "--disturb", [options](const std::string& text) { options->bus.disturbance = ParseLossOptions(text); },
-      "For tests: lose, repeat, delay and corrupt what every process sends, e.g. "
-      "drop=0.01,delay=0.05,seed=3");
+  AddBusOptions(*train, options->bus);
   train->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   train->callback([options, &command] {
     command = [options] { return options->resume.empty() ? TrainAnew(*options) : GoOn(*options); };

@@ -3,35 +3,25 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <random>
 
 #include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
+#include "core/identifier.h"
 #include "msgs/channels.h"
 #include "msgs/settings.h"
 #include "tools/installation.h"
 
 namespace fresco {
-namespace {
-
-/// Names the run; has no influence on what it learns.
-int64_t DrawRunId() {
-  std::random_device device;
-  return static_cast<int64_t>((uint64_t{device()} << 31) ^ device() ^ 1u) & INT64_MAX;
-}
-
-}  // namespace
-
 TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder,
                          const BusOptions& bus_options)
-    : TrainingRun(experiment, std::move(folder), bus_options, RunFolder::Use::kNewRun, DrawRunId()) {}
+    : TrainingRun(experiment, std::move(folder), bus_options, RunFolder::Use::kNewRun, DrawIdentifier()) {}
 
 TrainingRun::TrainingRun(const Resumption& resumption, std::filesystem::path folder,
                          const BusOptions& bus_options)
     : TrainingRun(resumption.experiment, std::move(folder), bus_options, RunFolder::Use::kResume,
-                  resumption.checkpoint ? resumption.checkpoint->run_id : DrawRunId()) {}
+                  resumption.checkpoint ? resumption.checkpoint->run_id : DrawIdentifier()) {}
 
 TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder,
                          const BusOptions& bus_options, RunFolder::Use use, int64_t run_id)
@@ -211,7 +201,7 @@ void TrainingRun::EndActors() {
   }
   for (ActorPlace& place : actors_) {
     if (place.process != nullptr) {
-      place.process->End(kPatienceUs);
+      place.process->WaitForEnd(kPatienceUs);
     }
   }
 }

@@ -25,6 +25,13 @@ class Silence(FrescoTest):
         self.assertIn("giving up: 3 s without a result (run.patience_s), waiting for an actor to join", log)
         self.assertIn("giving up: 3 s without a result", errors)
 
+    def test_gives_up_without_waiting_for_a_long_search_for_the_optimum(self):
+        config = self.folder / "many_sensors.textproto"
+        config.write_text("scenario { random_sensors { count: 40 seed: 1 } } run { optimum_limit_s: 3600 patience_s: 3 }")
+        output, _ = self.run_fresco("train", "--config", config, "--lcm-url", url(17374), "--out", self.folder / "long",
+                                    "--actors", 0, "--format", "json", expect=1)
+        self.assertIsNone(json.loads(output)["optimal_total_aoi"])
+
     def test_ends_in_order_where_all_actors_leave_and_goes_on_when_they_come_back(self):
         undisturbed = self.train(17371, "undisturbed", *LONGER)
         actor = self.start("--lcm-url", url(17371), program="fresco-actor")
