@@ -44,6 +44,10 @@ class AuthenticatedBus : public Bus {
     inner_->Subscribe(channel, authenticate, queue_capacity);
   }
 
+  void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
+    inner_->SubscribeToAll(std::move(handler), queue_capacity);
+  }
+
   int Poll(int64_t timeout_us, int maximum_messages) override {
     return inner_->Poll(timeout_us, maximum_messages);
   }

@@ -12,18 +12,22 @@
 #include <span>
 #include <string>
 
+#include "bus/lcm_event.h"
+
 namespace fresco {
 
 /// The message's bytes are valid during the call only.
 using BusHandler = std::function<void(std::span<const std::byte> message)>;
+/// The event is valid during the call only.
+using BusEventHandler = std::function<void(const LcmEvent& event)>;
 
 /// Messages of one channel that may wait for Poll; LCM drops what comes beyond (memq:// keeps all). At 40,000
 /// a second, the most that the pacing of networks allows, enough for a twentieth of a second in which nobody
 /// polls; what is lost is sent again. It bounds the memory that a flood can take from a program whose polling
 /// thread is busy: LCM counts messages, not bytes, and a datagram that is none of ours has up to 64 KiB, so
-/// 128 MiB a channel (Fresco's own: 3 MiB; both measured). LCM also joins fragments to messages of up to
-/// 256 MiB; those are bounded only by the sender's rate and the time in which nobody polls, so no thread that
-/// polls may be busy for long.
+/// 2048 x 64 KiB = 128 MiB a channel (Fresco's own messages: 2048 x 1350 bytes, under 3 MiB). LCM also joins
+/// fragments to messages of up to 256 MiB; those are bounded only by the sender's rate and the time in which
+/// nobody polls, so no thread that polls may be busy for long.
 inline constexpr int kDefaultQueueCapacity = 2048;
 
 class Bus {
@@ -39,6 +43,10 @@ class Bus {
   /// multicast), saying what to do. Keeps up to `queue_capacity` messages that wait for Poll.
   virtual void Subscribe(const std::string& channel, BusHandler handler,
                          int queue_capacity = kDefaultQueueCapacity) = 0;
+
+  /// Calls `handler` for every message of every channel, as it stands on the wire (an authenticated bus checks
+  /// and removes nothing here): for those who record. Throws UsageError as Subscribe does.
+  virtual void SubscribeToAll(BusEventHandler handler, int queue_capacity = kDefaultQueueCapacity) = 0;
 
   /// Handles what has arrived, or waits up to `timeout_us` microseconds for the first message; never
   /// handles more than `maximum_messages`. Returns the number of messages handled. Returns early,

@@ -60,16 +60,13 @@ class LcmBus : public Bus {
   }
 
   void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
-    Subscription& subscription = subscriptions_.emplace_back(Subscription{this, std::move(handler)});
-    lcm_subscription_t* raw =
-        lcm_subscribe(lcm_, EscapeChannel(channel).c_str(), &LcmBus::Dispatch, &subscription);
-    if (raw == nullptr) {
-      throw UsageError(
-          fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
-                      "may drop them (allow UDP to 224.0.0.0/4), or {}",
-                      channel, url_, Remedy(url_)));
-    }
-    lcm_subscription_set_queue_capacity(raw, queue_capacity);
+    SubscribeTo(
+        EscapeChannel(channel),
+        [handler = std::move(handler)](const LcmEvent& event) { handler(event.message); }, queue_capacity);
+  }
+
+  void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
+    SubscribeTo(".*", std::move(handler), queue_capacity);
   }
 
   int Poll(int64_t timeout_us, int maximum_messages) override {
@@ -89,13 +86,29 @@ class LcmBus : public Bus {
  private:
   struct Subscription {
     LcmBus* bus;
-    BusHandler handler;
+    BusEventHandler handler;
+    int64_t received = 0;
   };
 
-  static void Dispatch(const lcm_recv_buf_t* buffer, const char*, void* user) {
+  void SubscribeTo(const std::string& channels, BusEventHandler handler, int queue_capacity) {
+    Subscription& subscription = subscriptions_.emplace_back(Subscription{this, std::move(handler)});
+    lcm_subscription_t* raw = lcm_subscribe(lcm_, channels.c_str(), &LcmBus::Dispatch, &subscription);
+    if (raw == nullptr) {
+      throw UsageError(
+          fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
+                      "may drop them (allow UDP to 224.0.0.0/4), or {}",
+                      channels, url_, Remedy(url_)));
+    }
+    lcm_subscription_set_queue_capacity(raw, queue_capacity);
+  }
+
+  static void Dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
     auto* subscription = static_cast<Subscription*>(user);
     try {
-      subscription->handler({static_cast<const std::byte*>(buffer->data), buffer->data_size});
+      subscription->handler({subscription->received++,
+                             buffer->recv_utime,
+                             channel,
+                             {static_cast<const std::byte*>(buffer->data), buffer->data_size}});
     } catch (...) {
       subscription->bus->exception_ = std::current_exception();
     }

@@ -66,6 +66,10 @@ class LossyBus : public Bus {
     inner_->Subscribe(channel, std::move(handler), queue_capacity);
   }
 
+  void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
+    inner_->SubscribeToAll(std::move(handler), queue_capacity);
+  }
+
   int Poll(int64_t timeout_us, int maximum_messages) override {
     return inner_->Poll(timeout_us, maximum_messages);
   }

@@ -20,6 +20,7 @@ class NotingBus : public Bus {
     return true;
   }
   void Subscribe(const std::string&, BusHandler, int) override {}
+  void SubscribeToAll(BusEventHandler, int) override {}
   int Poll(int64_t, int) override { return 0; }
 
   std::vector<std::string> messages;
