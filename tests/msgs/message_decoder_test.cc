@@ -24,7 +24,7 @@ Bytes Handed(MessageDecoder& decoder, const Bytes& bytes, Result expected) {
 
 template <class Message>
 void ExpectDecoded(MessageDecoder& decoder) {
-  RandomStream stream(5, RandomPurpose::kExploration, 0, 0);
+  RandomStream stream(5, RandomPurpose::kTest, 0, 0);
   for (int i = 0; i < 10; ++i) {
     Bytes bytes = Encoded(RandomMessage<Message>(stream));
     const Bytes plain = bytes;
@@ -48,7 +48,7 @@ TEST(MessageDecoder, HandsOutEveryTypeWithAndWithoutATagBehindIt) {
 
 TEST(MessageDecoder, TellsForeignMessagesFromDamagedOnes) {
   MessageDecoder decoder;
-  RandomStream stream(5, RandomPurpose::kExploration, 0, 0);
+  RandomStream stream(5, RandomPurpose::kTest, 0, 0);
   const Bytes bytes = Encoded(RandomMessage<orders_t>(stream));
   for (size_t size = 0; size < bytes.size(); ++size) {
     const Bytes cut(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(size));
