@@ -14,5 +14,6 @@ void AddTrain(CLI::App& app, Command& command);
 void AddEvaluate(CLI::App& app, Command& command);
 void AddFigures(CLI::App& app, Command& command);
 void AddSoak(CLI::App& app, Command& command);
+void AddLog(CLI::App& app, Command& command);
 
 }  // namespace fresco
