@@ -120,6 +120,26 @@ TEST(EventLogReader, SkipsAnEventWhoseSyncWordIsFlipped) {
   }
 }
 
+TEST(EventLogReader, KeepsAnEventWithTheSyncWordInItBeforeDamage) {
+  const std::vector<LogEvent> events = {{1, "A", "before"},
+                                        {2, "B", "\xED\xA1\xDA\x01" + std::string(90, '\0')}};
+  const Reading reading = ReadBytes(LogBytes(events) + "rubbish" + LogBytes(events));
+  EXPECT_EQ(reading.events, (std::vector{events[0], events[1], events[0], events[1]}));
+  EXPECT_EQ(reading.damaged_bytes, 7);
+}
+
+TEST(EventLogReader, TakesNoTimeBeyondMeasureForADamagedLogOfMegabytes) {
+  std::string bytes = LogBytes({{1, "A", "before"}});
+  std::string header = LogBytes({{1, "A", ""}}).substr(0, 28);
+  SetLength(header, kMessageLengthOffset, 200 << 20);
+  for (int i = 0; i < 100'000; ++i) {
+    bytes += header;
+  }
+  const Reading reading = ReadBytes(bytes + LogBytes({{2, "B", "behind"}}));
+  EXPECT_EQ(reading.events, (std::vector<LogEvent>{{1, "A", "before"}, {2, "B", "behind"}}));
+  EXPECT_EQ(reading.damaged_bytes, 100'000 * 28);
+}
+
 TEST(EventLogReader, LosesNoOtherEventToADamagedLength) {
   const auto events = SampleEvents(12);
   const std::vector<size_t> boundaries = Boundaries(events);
