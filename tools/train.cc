@@ -26,6 +26,8 @@ struct TrainOptions {
   std::string out;
   std::string resume;
   std::string lcm_url;
+  bool record = false;
+  double record_split_mb = 0;
   BusOptions bus;
   std::string format = "text";
 };
@@ -74,11 +76,18 @@ std::string Interruption(const std::filesystem::path& folder) {
 }
 
 /// Runs it and shows what came out.
-int Train(TrainingRun& run, const std::filesystem::path& folder, bool text) {
+int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOptions& options) {
+  const bool text = options.format == "text";
+  if (options.record) {
+    run.Record(options.record_split_mb);
+  }
   const int status = MindRun(run);
   const std::string summary = run.Summary();
   fmt::print("{}", text ? ResultTable(summary) : summary);
   std::fflush(stdout);
+  if (options.record) {
+    fmt::print(text ? stdout : stderr, "{}{}\n", text ? "\n" : "", run.RecordingReport());
+  }
   WriteRunReport(folder);  // after the results: nothing that befalls a picture may hide them
   if (status != 0) {
     fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ngo on with it: {}\n",
@@ -95,24 +104,22 @@ int TrainAnew(const TrainOptions& options) {
       Experiment::Load(options.config.empty() ? DefaultConfigPath() : options.config, SettingsFrom(options));
   const std::filesystem::path folder =
       options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
-  const bool text = options.format == "text";
-  if (text) {
+  if (options.format == "text") {
     Announce(experiment, folder);
   }
   TrainingRun run(experiment, folder, options.bus);
-  return Train(run, folder, text);
+  return Train(run, folder, options);
 }
 
 int GoOn(const TrainOptions& options) {
   const Resumption resumption = ReadInterruptedRun(options.resume, SettingsFrom(options));
-  const bool text = options.format == "text";
-  if (text) {
+  if (options.format == "text") {
     fmt::print("going on after {} episodes; ",
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
   TrainingRun run(resumption, options.resume, options.bus);
-  return Train(run, options.resume, text);
+  return Train(run, options.resume, options);
 }
 
 }  // namespace
@@ -136,6 +143,12 @@ void AddTrain(CLI::App& app, Command& command) {
       ->excludes(seed)
       ->excludes(out);
   train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
+  CLI::Option* record = train->add_flag("--record", options->record, "Record all traffic to DIR/traffic.lcm");
+  train
+      ->add_option("--record-split-mb", options->record_split_mb,
+                   "Record in files of so many megabytes: traffic.lcm.00, traffic.lcm.01, ..")
+      ->needs(record)
+      ->check(CLI::Range(0.001, 1e9));
   AddBusOptions(*train, options->bus);
   train->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   train->callback([options, &command] {
