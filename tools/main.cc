@@ -17,6 +17,7 @@ int Main(int argc, char** argv) {
   Command command;
   AddTrain(app, command);
   AddEvaluate(app, command);
+  AddFly(app, command);
   AddFigures(app, command);
   AddSoak(app, command);
   app.footer("tools/fresco test runs all tests. Exit status: 0 done, 1 the work failed, 2 wrong use.");
