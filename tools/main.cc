@@ -18,6 +18,7 @@ int Main(int argc, char** argv) {
   AddTrain(app, command);
   AddEvaluate(app, command);
   AddRetrain(app, command);
+  AddFly(app, command);
   AddFigures(app, command);
   AddSoak(app, command);
   AddLog(app, command);
