@@ -157,4 +157,52 @@ void ForEachField(const learner_status_t& message, Visitor&& visit) {
   visit("warning", message.warning);
 }
 
+template <class Visitor>
+void ForEachField(const flight_t& message, Visitor&& visit) {
+  visit("utime", message.utime);
+  visit("run_id", message.run_id);
+  visit("config_hash", message.config_hash);
+  visit("sensor_count", message.sensor_count);
+  visit("flight", message.flight);
+  visit("slot", message.slot);
+  visit("slots", message.slots);
+  visit("column", message.column);
+  visit("row", message.row);
+  visit("time_margin", message.time_margin);
+  visit("energy_margin_j", message.energy_margin_j);
+  visit("remaining_energy_j", message.remaining_energy_j);
+  visit("move", message.move);
+  visit("scheduled", message.scheduled);
+  visit("reward", message.reward);
+  visit("total_aoi", message.total_aoi);
+  visit("outcome", message.outcome);
+  visit("policy", message.policy);
+  visit("aoi", message.aoi);
+}
+
+template <class Visitor>
+void ForEachField(const scenario_t& message, Visitor&& visit) {
+  visit("utime", message.utime);
+  visit("run_id", message.run_id);
+  visit("config_hash", message.config_hash);
+  visit("sensor_count", message.sensor_count);
+  visit("first_sensor", message.first_sensor);
+  visit("total_sensors", message.total_sensors);
+  visit("columns", message.columns);
+  visit("rows", message.rows);
+  visit("cell_m", message.cell_m);
+  visit("start_column", message.start_column);
+  visit("start_row", message.start_row);
+  visit("stop_column", message.stop_column);
+  visit("stop_row", message.stop_row);
+  visit("slots", message.slots);
+  visit("slot_s", message.slot_s);
+  visit("coverage_radius_m", message.coverage_radius_m);
+  visit("initial_energy_j", message.initial_energy_j);
+  visit("maximum_aoi", message.maximum_aoi);
+  visit("x_m", message.x_m);
+  visit("y_m", message.y_m);
+  visit("weight", message.weight);
+}
+
 }  // namespace fresco

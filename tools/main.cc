@@ -17,6 +17,8 @@ int Main(int argc, char** argv) {
   Command command;
   AddTrain(app, command);
   AddEvaluate(app, command);
+  AddRetrain(app, command);
+  AddFly(app, command);
   AddFigures(app, command);
   AddSoak(app, command);
   AddLog(app, command);

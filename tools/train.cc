@@ -1,8 +1,6 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 
@@ -11,6 +9,7 @@
 #include "msgs/settings.h"
 #include "tools/installation.h"
 #include "tools/live_line.h"
+#include "tools/new_run_folder.h"
 #include "tools/run_report.h"
 #include "tools/subcommands.h"
 #include "tools/train_display.h"
@@ -45,15 +44,6 @@ Settings SettingsFrom(const TrainOptions& options) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
   return settings;
-}
-
-std::filesystem::path DefaultFolder() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char name[32];
-  std::strftime(name, sizeof name, "%Y%m%dT%H%M%SZ", &utc);
-  return std::filesystem::path("runs") / fmt::format("{}-{}", name, getpid());
 }
 
 /// Minds the run until it ends or the program is asked to stop; returns the learner's exit status.
@@ -113,7 +103,7 @@ int TrainAnew(const TrainOptions& options) {
   const Experiment experiment =
       Experiment::Load(options.config.empty() ? DefaultConfigPath() : options.config, SettingsFrom(options));
   const std::filesystem::path folder =
-      options.out.empty() ? DefaultFolder() : std::filesystem::path(options.out);
+      options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
   if (options.format == "text") {
     Announce(experiment, folder);
   }

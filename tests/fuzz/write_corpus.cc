@@ -63,6 +63,8 @@ void WriteWire(const std::filesystem::path& directory) {
   AddMessages<weights_t>(stream, type++, corpus);
   AddMessages<actor_status_t>(stream, type++, corpus);
   AddMessages<learner_status_t>(stream, type++, corpus);
+  AddMessages<scenario_t>(stream, type++, corpus);
+  AddMessages<flight_t>(stream, type++, corpus);
 }
 
 /// A flight of random actions, safe ones where `mask` says so.
