@@ -29,7 +29,7 @@ class RetrainingTest : public testing::Test {
                                       Use use = Use::kSameRun, bool strict = false) {
     const auto path = EmptyDirectory("retraining") / "log";
     WriteLog(path, events);
-    episodes_ = std::make_unique<LoggedEpisodes>(LogPaths{path}, Identity(live_), live_.world,
+    episodes_ = std::make_unique<LoggedEpisodes>(LogSource{{path}}, Identity(live_), live_.world,
                                                  live_.experiment.mask_options());
     auto retraining = std::make_unique<Retraining>(
         experiment, live_.world, *episodes_, use, strict,
@@ -156,7 +156,7 @@ TEST_F(RetrainingTest, LeavesOutExperienceThatItsMasksForbid) {
   unmasked.Finish();
   const auto path = EmptyDirectory("unmasked") / "log";
   WriteLog(path, EventsOf(unmasked, Identity(unmasked)));
-  LoggedEpisodes episodes({path}, Identity(unmasked), unmasked.world, unmasked.experiment.mask_options());
+  LoggedEpisodes episodes({{path}}, Identity(unmasked), unmasked.world, unmasked.experiment.mask_options());
   const Experiment masked = SmallExperiment({{"schedule.episodes", "3"}});
   Retraining retraining(masked, unmasked.world, episodes, Use::kExperience, false,
                         [](const Trainer&, const Evaluation&) {});
