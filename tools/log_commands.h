@@ -6,5 +6,10 @@
 namespace fresco {
 
 void AddLogRecord(CLI::App& log, Command& command);
+void AddLogInfo(CLI::App& log, Command& command);
+void AddLogCat(CLI::App& log, Command& command);
+void AddLogCut(CLI::App& log, Command& command);
+void AddLogExport(CLI::App& log, Command& command);
+void AddLogPlay(CLI::App& log, Command& command);
 
 }  // namespace fresco
