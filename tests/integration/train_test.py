@@ -127,7 +127,7 @@ class Train(FrescoTest):
         self.assertGreaterEqual(len(configs), 4)
         for config in configs:
             summary = self.train(17308, config.stem, "--set", "schedule.episodes=12", "--set",
-                                 "schedule.minimum_replay_size=200", config=config)
+                                 "schedule.minimum_replay_size=700", config=config)
             self.assertEqual(summary["episodes"], 12, config)
             self.assertGreater(summary["updates"], 0, config)
 
