@@ -20,6 +20,7 @@ int Main(int argc, char** argv) {
   AddFly(app, command);
   AddFigures(app, command);
   AddSoak(app, command);
+  AddSpy(app, command);
   app.footer("tools/fresco test runs all tests. Exit status: 0 done, 1 the work failed, 2 wrong use.");
   try {
     app.parse(argc, argv);

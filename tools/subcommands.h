@@ -15,5 +15,6 @@ void AddEvaluate(CLI::App& app, Command& command);
 void AddFly(CLI::App& app, Command& command);
 void AddFigures(CLI::App& app, Command& command);
 void AddSoak(CLI::App& app, Command& command);
+void AddSpy(CLI::App& app, Command& command);
 
 }  // namespace fresco
