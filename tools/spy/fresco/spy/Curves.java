@@ -3,6 +3,7 @@ package fresco.spy;
 import info.monitorenter.gui.chart.Chart2D;
 import info.monitorenter.gui.chart.IAxis;
 import info.monitorenter.gui.chart.ITrace2D;
+import info.monitorenter.gui.chart.ITracePoint2D;
 import info.monitorenter.gui.chart.axis.AAxis;
 import info.monitorenter.gui.chart.axis.AxisLinear;
 import info.monitorenter.gui.chart.axis.scalepolicy.AxisScalePolicyManualTicks;
@@ -15,6 +16,8 @@ import java.awt.Color;
 import java.awt.Font;
 import java.text.DecimalFormat;
 import java.text.DecimalFormatSymbols;
+import java.util.Iterator;
+import java.util.List;
 import java.util.Locale;
 import javax.swing.BorderFactory;
 import javax.swing.JLabel;
@@ -88,15 +91,34 @@ final class Curves extends JPanel {
 
   /** Fits the y axis to the curves; from zero on unless they stay far above it. */
   void fitY() {
+    fitYFrom(-Double.MAX_VALUE);
+  }
+
+  /** The same, to the newer half of the curves: what falls fast at first is told apart where it is small. */
+  void fitYToNewerHalf() {
+    List<ITrace2D> drawn = chart.getTraces().stream().filter(trace -> !trace.isEmpty()).toList();
+    double first = drawn.stream().mapToDouble(ITrace2D::getMinX).min().orElse(0);
+    double last = drawn.stream().mapToDouble(ITrace2D::getMaxX).max().orElse(0);
+    fitYFrom((first + last) / 2);
+  }
+
+  private void fitYFrom(double x) {
     double low = Double.MAX_VALUE;
     double high = -Double.MAX_VALUE;
     for (ITrace2D trace : chart.getTraces()) {
-      if (!trace.isEmpty()) {
-        low = Math.min(low, trace.getMinY());
-        high = Math.max(high, trace.getMaxY());
+      for (Iterator<ITracePoint2D> points = trace.iterator(); points.hasNext(); ) {
+        ITracePoint2D point = points.next();
+        if (point.getX() >= x) {
+          low = Math.min(low, point.getY());
+          high = Math.max(high, point.getY());
+        }
       }
     }
-    if (low > high) {
+    fitYTo(low, high);
+  }
+
+  private void fitYTo(double low, double high) {
+    if (low > high) { // there is no point yet
       setRange(chart.getAxisY(), 0, 1, Y_TICKS);
       return;
     }

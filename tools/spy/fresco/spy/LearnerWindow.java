@@ -95,7 +95,8 @@ final class LearnerWindow extends Window {
     if (last != null) {
       setTitle(String.format("Fresco learner: run %016x on %s", last.run_id, prefix));
       facts.show(last, run.silentS());
-      all().forEach(Curves::fitY);
+      List.of(loss, aoi, rates).forEach(Curves::fitY);
+      gap.fitYToNewerHalf();
     }
   }
 
