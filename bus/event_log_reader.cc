@@ -100,7 +100,7 @@ std::optional<LcmEvent> EventLogReader::Next() {
       if (!SwallowsAnother(header.event_bytes())) {
         return Take(header.event_bytes(), static_cast<size_t>(header.channel_bytes));
       }
-    } else if (header.IsPossible() && !AnotherEventFollows()) {
+    } else if (header.IsPossible() && !HasWholeEvent(FileBytes())) {
       break;
     }
     SkipDamage();
@@ -125,29 +125,42 @@ bool EventLogReader::SwallowsAnother(size_t event_bytes) {
   if (!Buffer(event_bytes + kSyncBytes) || IsSyncWord(buffered().data() + event_bytes)) {
     return false;
   }
-  const auto content = buffered().subspan(kSyncBytes, event_bytes);
-  return FindSyncWord(content) < content.size();
+  return HasWholeEvent(position_ + static_cast<int64_t>(event_bytes));
 }
 
-/// Whether the event at hand, which ends beyond the file's end, has a damaged length: another begins within.
-bool EventLogReader::AnotherEventFollows() const {
-  std::vector<std::byte> block(kBlockBytes);
+/// Whether an event begins behind the beginning of the one at hand, and before `end`, that is whole and has
+/// another or the file's end behind it: so that a message may contain the sync word.
+bool EventLogReader::HasWholeEvent(int64_t end) {
   int64_t offset = position_ + static_cast<int64_t>(kSyncBytes);
-  while (true) {
+  std::vector<std::byte> block;
+  while (whole_event_ < offset && offset < end) {
+    block.resize(std::min(kBlockBytes, static_cast<size_t>(end - offset) + kSyncBytes - 1));
     const size_t bytes = ReadAt(offset, block);
-    const auto read = std::span<const std::byte>(block).first(bytes);
-    const size_t found = FindSyncWord(read);
-    if (found + kHeaderBytes <= bytes) {
-      if (Header(read.data() + found).IsPossible()) {
-        return true;
+    const size_t found = FindSyncWord(std::span<const std::byte>(block).first(bytes));
+    if (found < bytes) {
+      offset += static_cast<int64_t>(found);
+      if (WholeEventBeginsAt(offset)) {
+        whole_event_ = offset;
+      } else {
+        offset += static_cast<int64_t>(kSyncBytes);
       }
-      offset += static_cast<int64_t>(found + kSyncBytes);
     } else if (bytes < block.size()) {
       return false;
     } else {
-      offset += static_cast<int64_t>(std::min(found, bytes - (kSyncBytes - 1)));
+      offset += static_cast<int64_t>(bytes - (kSyncBytes - 1));
     }
   }
+  return whole_event_ >= offset && whole_event_ < end;
+}
+
+bool EventLogReader::WholeEventBeginsAt(int64_t offset) const {
+  std::array<std::byte, kHeaderBytes> bytes;
+  if (ReadAt(offset, bytes) < kHeaderBytes || !Header(bytes.data()).IsPossible()) {
+    return false;
+  }
+  const int64_t end = offset + static_cast<int64_t>(Header(bytes.data()).event_bytes());
+  const bool has_next = ReadAt(end, std::span(bytes).first(kSyncBytes)) == kSyncBytes;
+  return end == FileBytes() || (has_next && IsSyncWord(bytes.data()));
 }
 
 /// To the next sync word behind the one at hand.
