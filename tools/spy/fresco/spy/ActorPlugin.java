@@ -11,8 +11,7 @@ import lcm.spy.SpyPlugin;
 public final class ActorPlugin implements SpyPlugin {
   @Override
   public boolean canHandle(long fingerprint) {
-    return fingerprint == actor_status_t.LCM_FINGERPRINT
-        || fingerprint == orders_t.LCM_FINGERPRINT;
+    return fingerprint == actor_status_t.LCM_FINGERPRINT || fingerprint == orders_t.LCM_FINGERPRINT;
   }
 
   @Override

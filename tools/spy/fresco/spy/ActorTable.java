@@ -25,17 +25,11 @@ final class ActorTable extends AbstractTableModel {
       this.heardNs = heardNs;
     }
 
-    double silentS() {
-      return (System.nanoTime() - heardNs) * 1e-9;
-    }
+    double silentS() { return (System.nanoTime() - heardNs) * 1e-9; }
 
-    boolean isSilent() {
-      return silentS() > SILENT_S;
-    }
+    boolean isSilent() { return silentS() > SILENT_S; }
 
-    double transitionsPerS() {
-      return isSilent() ? 0 : status.transitions_per_s;
-    }
+    double transitionsPerS() { return isSilent() ? 0 : status.transitions_per_s; }
 
     private long missingChunks() {
       long missing = 0;
@@ -53,31 +47,27 @@ final class ActorTable extends AbstractTableModel {
   private record Column(String title, int width, Cell cell) {}
 
   private static final Column[] COLUMNS = {
-    new Column("actor", 150, actor -> String.format("%016x", actor.status.actor_id)),
-    new Column("host", 120, actor -> actor.status.host),
-    new Column("process", 70, actor -> actor.status.pid),
-    new Column("transitions/s", 100, actor -> String.format("%,.0f", actor.transitionsPerS())),
-    new Column("transitions", 100, actor -> String.format("%,d", actor.status.transitions)),
-    new Column("episodes", 80, actor -> String.format("%,d", actor.status.episodes)),
-    new Column("orders/room", 90, actor -> actor.status.open_orders + "/" + actor.status.capacity),
-    new Column("networks", 70, actor -> actor.status.held.length),
-    new Column("chunks missing", 100, actor -> String.format("%,d", actor.missingChunks())),
-    new Column("network latency", 110, actor -> Text.orDash("%.1f ms", actor.status.weights_latency_ms)),
-    new Column("sent again", 80, actor -> String.format("%,d", actor.status.resent_episodes)),
-    new Column("rejected", 70, actor -> String.format("%,d", actor.status.rejected_messages)),
-    new Column("heard", 80, actor -> String.format("%.1f s ago", actor.silentS())),
+      new Column("actor", 150, actor -> String.format("%016x", actor.status.actor_id)),
+      new Column("host", 120, actor -> actor.status.host),
+      new Column("process", 70, actor -> actor.status.pid),
+      new Column("transitions/s", 100, actor -> String.format("%,.0f", actor.transitionsPerS())),
+      new Column("transitions", 100, actor -> String.format("%,d", actor.status.transitions)),
+      new Column("episodes", 80, actor -> String.format("%,d", actor.status.episodes)),
+      new Column("orders/room", 90, actor -> actor.status.open_orders + "/" + actor.status.capacity),
+      new Column("networks", 70, actor -> actor.status.held.length),
+      new Column("chunks missing", 100, actor -> String.format("%,d", actor.missingChunks())),
+      new Column("network latency", 110, actor -> Text.orDash("%.1f ms", actor.status.weights_latency_ms)),
+      new Column("sent again", 80, actor -> String.format("%,d", actor.status.resent_episodes)),
+      new Column("rejected", 70, actor -> String.format("%,d", actor.status.rejected_messages)),
+      new Column("heard", 80, actor -> String.format("%.1f s ago", actor.silentS())),
   };
 
   private final transient Map<Long, Actor> actors = new RecentMap<>(MOST_ACTORS);
   private transient List<Actor> rows = new ArrayList<>();
 
-  void add(actor_status_t status) {
-    actors.put(status.actor_id, new Actor(status, System.nanoTime()));
-  }
+  void add(actor_status_t status) { actors.put(status.actor_id, new Actor(status, System.nanoTime())); }
 
-  void clear() {
-    actors.clear();
-  }
+  void clear() { actors.clear(); }
 
   /** Takes over what was heard, forgets who is long silent, and shows it. */
   void refresh() {
@@ -87,13 +77,9 @@ final class ActorTable extends AbstractTableModel {
     fireTableDataChanged();
   }
 
-  List<Actor> rows() {
-    return rows;
-  }
+  List<Actor> rows() { return rows; }
 
-  int width(int column) {
-    return COLUMNS[column].width;
-  }
+  int width(int column) { return COLUMNS[column].width; }
 
   @Override
   public int getRowCount() {

@@ -3,9 +3,11 @@ package fresco.spy;
 import fresco.actor_status_t;
 import info.monitorenter.gui.chart.ITrace2D;
 import java.awt.BorderLayout;
+import java.awt.Color;
 import java.awt.Component;
 import java.awt.Dimension;
 import java.util.HashMap;
+import java.util.List;
 import java.util.Map;
 import javax.swing.JPanel;
 import javax.swing.JScrollPane;
@@ -19,7 +21,8 @@ final class ActorWindow extends Window {
   private static final double SHOWN_S = 120;
 
   private final ActorTable table = new ActorTable();
-  private final Curves rates = new Curves("Transitions flown", "seconds since the window was opened", "transitions a second");
+  private final Curves rates =
+      new Curves("Transitions flown", "seconds since the window was opened", "transitions a second");
   private final Map<Long, ITrace2D> traces = new HashMap<>();
   private final ITrace2D sum = rates.add("all", Palette.INK, 2.2);
   private final RunFollower run = new RunFollower();
@@ -104,7 +107,10 @@ final class ActorWindow extends Window {
       double rate = actor.transitionsPerS();
       if (rate >= 0 && rate < 1e12) {
         total += rate;
-        traceOf(actor).addPoint(elapsedS, rate);
+        ITrace2D trace = traceOf(actor);
+        if (trace != null) {
+          trace.addPoint(elapsedS, rate);
+        }
       }
     }
     sum.addPoint(elapsedS, total);
@@ -112,21 +118,34 @@ final class ActorWindow extends Window {
     forgetThoseThatAreGone();
   }
 
+  /** Null where there are as many as there are colours. */
   private ITrace2D traceOf(ActorTable.Actor actor) {
-    String id = String.format("%016x", actor.status.actor_id);
-    return traces.computeIfAbsent(
-        actor.status.actor_id, any -> rates.add("actor .." + id.substring(12), Palette.series(traces.size()), 1.5));
+    ITrace2D trace = traces.get(actor.status.actor_id);
+    if (trace == null && traces.size() < Palette.SERIES_COLOURS) {
+      String id = String.format("%016x", actor.status.actor_id);
+      trace = rates.add("actor .." + id.substring(12), freeColour(), 1.5);
+      traces.put(actor.status.actor_id, trace);
+    }
+    return trace;
+  }
+
+  private Color freeColour() {
+    List<Color> taken = traces.values().stream().map(ITrace2D::getColor).toList();
+    int index = 0;
+    while (taken.contains(Palette.series(index))) {
+      ++index;
+    }
+    return Palette.series(index);
   }
 
   private void forgetThoseThatAreGone() {
-    traces.entrySet().removeIf(
-        entry -> {
-          boolean gone = table.rows().stream().noneMatch(actor -> actor.status.actor_id == entry.getKey());
-          if (gone) {
-            rates.remove(entry.getValue());
-          }
-          return gone;
-        });
+    traces.entrySet().removeIf(entry -> {
+      boolean gone = table.rows().stream().noneMatch(actor -> actor.status.actor_id == entry.getKey());
+      if (gone) {
+        rates.remove(entry.getValue());
+      }
+      return gone;
+    });
   }
 
   @Override

@@ -11,9 +11,7 @@ final class AoiChart {
   private Flight flight;
   private int shown;
 
-  Curves component() {
-    return curves;
-  }
+  Curves component() { return curves; }
 
   void show(Flight flown, int steps, int slots) {
     if (flown != flight || steps < shown) {
@@ -28,9 +26,7 @@ final class AoiChart {
     curves.setYRange(0, flown.scale());
   }
 
-  private static boolean oneEach(int sensors) {
-    return sensors <= Palette.SERIES_COLOURS;
-  }
+  private static boolean oneEach(int sensors) { return sensors <= Palette.SERIES_COLOURS; }
 
   private void prepare(int sensors) {
     curves.clear();

@@ -8,8 +8,8 @@ import lcm.spy.ChannelData;
 import lcm.spy.Spy;
 
 /**
- * lcm-spy's table as lines on standard output, once a second: channel, type, messages received, undecodable. lcm-spy
- * keeps the table to itself, so it is read by reflection.
+ * lcm-spy's table as lines on standard output, once a second: channel, type, messages received, undecodable.
+ * lcm-spy keeps the table to itself, so it is read by reflection.
  */
 final class ChannelTable {
   private static final int PERIOD_MS = 1000;
@@ -23,9 +23,7 @@ final class ChannelTable {
     channels = (List<ChannelData>) list.get(spy);
   }
 
-  void start() {
-    new Timer(PERIOD_MS, event -> print()).start();
-  }
+  void start() { new Timer(PERIOD_MS, event -> print()).start(); }
 
   private void print() {
     List<ChannelData> now;

@@ -76,9 +76,7 @@ final class Curves extends JPanel {
     return trace;
   }
 
-  void remove(ITrace2D trace) {
-    chart.removeTrace(trace);
-  }
+  void remove(ITrace2D trace) { chart.removeTrace(trace); }
 
   /** The x axis shows this range whatever the curves have. */
   void setXRange(double from, double to) {
@@ -90,9 +88,7 @@ final class Curves extends JPanel {
   }
 
   /** Fits the y axis to the curves; from zero on unless they stay far above it. */
-  void fitY() {
-    fitYFrom(-Double.MAX_VALUE);
-  }
+  void fitY() { fitYFrom(-Double.MAX_VALUE); }
 
   /** The same, to the newer half of the curves: what falls fast at first is told apart where it is small. */
   void fitYToNewerHalf() {
@@ -106,7 +102,7 @@ final class Curves extends JPanel {
     double low = Double.MAX_VALUE;
     double high = -Double.MAX_VALUE;
     for (ITrace2D trace : chart.getTraces()) {
-      for (Iterator<ITracePoint2D> points = trace.iterator(); points.hasNext(); ) {
+      for (Iterator<ITracePoint2D> points = trace.iterator(); points.hasNext();) {
         ITracePoint2D point = points.next();
         if (point.getX() >= x) {
           low = Math.min(low, point.getY());
@@ -130,7 +126,8 @@ final class Curves extends JPanel {
 
   private static void setRange(IAxis<?> axis, double from, double to, int ticks) {
     Range range = new Range(from, to);
-    if (axis.getRangePolicy() instanceof RangePolicyFixedViewport && range.equals(axis.getRangePolicy().getRange())) {
+    if (axis.getRangePolicy() instanceof RangePolicyFixedViewport
+        && range.equals(axis.getRangePolicy().getRange())) {
       return;
     }
     axis.setRangePolicy(new RangePolicyFixedViewport(range));
@@ -139,12 +136,8 @@ final class Curves extends JPanel {
     axis.setMinorTickSpacing(step);
   }
 
-  void clear() {
-    chart.getTraces().forEach(ITrace2D::removeAllPoints);
-  }
+  void clear() { chart.getTraces().forEach(ITrace2D::removeAllPoints); }
 
   /** Frees the chart's thread. */
-  void close() {
-    chart.destroy();
-  }
+  void close() { chart.destroy(); }
 }

@@ -4,7 +4,10 @@ import fresco.transitions_t;
 import java.util.Map;
 import java.util.TreeMap;
 
-/** Puts whole episodes together from transitions_t messages, in whatever order they come. On the event thread. */
+/**
+ * Puts whole episodes together from transitions_t messages, in whatever order they come. On the event
+ * thread.
+ */
 final class Episodes {
   private static final int OPEN_EPISODES = 256;
   private static final int REMEMBERED_EPISODES = 1024;
@@ -31,10 +34,8 @@ final class Episodes {
   }
 
   private static boolean isSound(transitions_t message) {
-    return message.transition_count >= 1
-        && message.state_count == message.transition_count + 1
-        && message.sensor_count >= 1
-        && message.first_transition >= 0
+    return message.transition_count >= 1 && message.state_count == message.transition_count + 1
+        && message.sensor_count >= 1 && message.first_transition >= 0
         && message.first_transition + message.transition_count < MessageTypes.MAXIMUM_SLOTS;
   }
 
@@ -65,15 +66,8 @@ final class Episodes {
   }
 
   private static Step stepOf(transitions_t part, int state, int action) {
-    return new Step(
-        part.first_transition + state + 1,
-        part.column[state],
-        part.row[state],
-        part.aoi[state],
-        Math.floorDiv(action, part.sensor_count + 1),
-        Math.floorMod(action, part.sensor_count + 1),
-        part.time_margin[state],
-        part.energy_margin_j[state],
-        Double.NaN);
+    return new Step(part.first_transition + state + 1, part.column[state], part.row[state], part.aoi[state],
+        Math.floorDiv(action, part.sensor_count + 1), Math.floorMod(action, part.sensor_count + 1),
+        part.time_margin[state], part.energy_margin_j[state], Double.NaN);
   }
 }

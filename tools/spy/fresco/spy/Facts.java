@@ -45,9 +45,7 @@ final class Facts extends JPanel {
     return label;
   }
 
-  void set(String name, String value) {
-    set(name, value, Palette.INK);
-  }
+  void set(String name, String value) { set(name, value, Palette.INK); }
 
   void set(String name, String value, Color colour) {
     JLabel label = values.get(name);

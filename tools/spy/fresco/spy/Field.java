@@ -3,20 +3,11 @@ package fresco.spy;
 import java.util.List;
 
 /**
- * The field that a run flies over: scenario_t, checked. Positions are in metres, east and north of the centre of
- * cell (0, 0). Immutable.
+ * The field that a run flies over: scenario_t, checked. Positions are in metres, east and north of the centre
+ * of cell (0, 0). Immutable.
  */
-record Field(
-    int columns,
-    int rows,
-    double cellM,
-    Cell start,
-    Cell stop,
-    int slots,
-    double coverageRadiusM,
-    double initialEnergyJ,
-    List<Sensor> sensors) {
-
+record Field(int columns, int rows, double cellM, Cell start, Cell stop, int slots, double coverageRadiusM,
+    double initialEnergyJ, List<Sensor> sensors) {
   record Cell(int column, int row) {}
 
   record Sensor(double xM, double yM, double weight) {}

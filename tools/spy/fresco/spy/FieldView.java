@@ -26,9 +26,7 @@ final class FieldView {
     bottom = TOP + (height + cellPixels * field.rows()) / 2;
   }
 
-  double cellPixels() {
-    return cellPixels;
-  }
+  double cellPixels() { return cellPixels; }
 
   /** The centre of a cell; columns and rows may be fractions. */
   Point2D.Double place(double column, double row) {

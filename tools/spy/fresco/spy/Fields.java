@@ -15,18 +15,14 @@ final class Fields {
   private static final class Parts {
     final Field.Sensor[] sensors;
 
-    Parts(int sensors) {
-      this.sensors = new Field.Sensor[sensors];
-    }
+    Parts(int sensors) { this.sensors = new Field.Sensor[sensors]; }
   }
 
   private final Map<Long, Parts> parts = new RecentMap<>(REMEMBERED_RUNS);
   private final Map<Long, Field> fields = new RecentMap<>(REMEMBERED_RUNS);
 
   /** The run's field; null where it is not, or not wholly, known yet. */
-  Field of(long runId) {
-    return fields.get(runId);
-  }
+  Field of(long runId) { return fields.get(runId); }
 
   void add(scenario_t message) {
     if (!isSound(message)) {
@@ -47,41 +43,30 @@ final class Fields {
   }
 
   private static Field fieldOf(scenario_t message, Parts known) {
-    return new Field(
-        message.columns,
-        message.rows,
-        message.cell_m,
+    return new Field(message.columns, message.rows, message.cell_m,
         new Field.Cell(message.start_column, message.start_row),
-        new Field.Cell(message.stop_column, message.stop_row),
-        message.slots,
-        message.coverage_radius_m,
-        message.initial_energy_j,
-        Arrays.asList(known.sensors.clone()));
+        new Field.Cell(message.stop_column, message.stop_row), message.slots, message.coverage_radius_m,
+        message.initial_energy_j, Arrays.asList(known.sensors.clone()));
   }
 
   private static boolean isSound(scenario_t message) {
     return isWithin(message.columns, 1, MAXIMUM_CELLS_A_SIDE)
-        && isWithin(message.rows, 1, MAXIMUM_CELLS_A_SIDE)
-        && isWithin(message.cell_m, 1e-6, LARGEST)
+        && isWithin(message.rows, 1, MAXIMUM_CELLS_A_SIDE) && isWithin(message.cell_m, 1e-6, LARGEST)
         && isWithin(message.start_column, 0, message.columns - 1)
         && isWithin(message.start_row, 0, message.rows - 1)
         && isWithin(message.stop_column, 0, message.columns - 1)
         && isWithin(message.stop_row, 0, message.rows - 1)
         && isWithin(message.slots, 1, MessageTypes.MAXIMUM_SLOTS)
         && isWithin(message.coverage_radius_m, 0, LARGEST)
-        && isWithin(message.initial_energy_j, 0, Double.MAX_VALUE)
-        && sensorsAreSound(message);
+        && isWithin(message.initial_energy_j, 0, Double.MAX_VALUE) && sensorsAreSound(message);
   }
 
   private static boolean sensorsAreSound(scenario_t message) {
-    boolean sound =
-        isWithin(message.total_sensors, 1, MessageTypes.MAXIMUM_SENSORS)
-            && isWithin(message.first_sensor, 0, message.total_sensors - message.sensor_count);
+    boolean sound = isWithin(message.total_sensors, 1, MessageTypes.MAXIMUM_SENSORS)
+        && isWithin(message.first_sensor, 0, message.total_sensors - message.sensor_count);
     for (int i = 0; sound && i < message.sensor_count; ++i) {
-      sound =
-          isWithin(message.x_m[i], -LARGEST, LARGEST)
-              && isWithin(message.y_m[i], -LARGEST, LARGEST)
-              && isWithin(message.weight[i], 0, LARGEST);
+      sound = isWithin(message.x_m[i], -LARGEST, LARGEST) && isWithin(message.y_m[i], -LARGEST, LARGEST)
+          && isWithin(message.weight[i], 0, LARGEST);
     }
     return sound;
   }

@@ -25,18 +25,12 @@ final class Flight {
     this.live = live;
   }
 
-  int sensors() {
-    return steps.isEmpty() ? 0 : steps.get(0).aoi().length;
-  }
+  int sensors() { return steps.isEmpty() ? 0 : steps.get(0).aoi().length; }
 
-  String outcomeName() {
-    return outcome >= 0 && outcome < OUTCOMES.length ? OUTCOMES[outcome] : "?";
-  }
+  String outcomeName() { return outcome >= 0 && outcome < OUTCOMES.length ? OUTCOMES[outcome] : "?"; }
 
   /** The AoI of all sensors in the first `count` steps. */
-  long totalAoi(int count) {
-    return steps.stream().limit(count).mapToLong(Step::totalAoi).sum();
-  }
+  long totalAoi(int count) { return steps.stream().limit(count).mapToLong(Step::totalAoi).sum(); }
 
   /** The weighted mean AoI of the first `count` steps, slots; without its field all sensors weigh alike. */
   double averageAoi(int count, Field field) {

@@ -5,26 +5,10 @@ import java.awt.Color;
 /** A flight in numbers, at the slot that is shown. On the event thread. */
 final class FlightFacts {
   private final Facts facts =
-      new Facts(
-          1,
-          "run",
-          "flight",
-          "order",
-          "flown by",
-          "slot",
-          "over cell",
-          "move",
-          "collects",
-          "mean AoI so far",
-          "total AoI so far",
-          "time margin",
-          "energy margin",
-          "on board",
-          "outcome");
+      new Facts(1, "run", "flight", "order", "flown by", "slot", "over cell", "move", "collects",
+          "mean AoI so far", "total AoI so far", "time margin", "energy margin", "on board", "outcome");
 
-  Facts component() {
-    return facts;
-  }
+  Facts component() { return facts; }
 
   /** `field` may be null: not known yet. */
   void show(Flight flight, int shown, Field field) {
@@ -41,7 +25,8 @@ final class FlightFacts {
     facts.set("mean AoI so far", Text.orDash("%.3f slots", flight.averageAoi(shown, field)));
     facts.set("total AoI so far", flight.totalAoi(shown) + " slots");
     facts.set("time margin", now.timeMargin() + " slots", marginColour(now.timeMargin()));
-    facts.set("energy margin", Text.orDash("%,.0f J", now.energyMarginJ()), marginColour(now.energyMarginJ()));
+    facts.set(
+        "energy margin", Text.orDash("%,.0f J", now.energyMarginJ()), marginColour(now.energyMarginJ()));
     facts.set("on board", onBoard(now, field));
     Color colour = flight.outcome > 1 ? Palette.FAULT : Palette.INK;
     facts.set("outcome", over ? flight.outcomeName() : "flying", over ? colour : Palette.INK);
@@ -67,9 +52,7 @@ final class FlightFacts {
     facts.set("collects", text, heard ? Palette.HIGHLIGHT : Palette.MUTED);
   }
 
-  private static Color marginColour(double margin) {
-    return margin < 0 ? Palette.FAULT : Palette.INK;
-  }
+  private static Color marginColour(double margin) { return margin < 0 ? Palette.FAULT : Palette.INK; }
 
   private static String onBoard(Step now, Field field) {
     if (!Double.isFinite(now.remainingEnergyJ())) {

@@ -8,7 +8,10 @@ import java.awt.Shape;
 import java.awt.geom.Line2D;
 import java.awt.geom.Point2D;
 
-/** Paints what moves over a field: sensors as old as their data, the UAV, where it came from, what it collects. */
+/**
+ * Paints what moves over a field: sensors as old as their data, the UAV, where it came from, what it
+ * collects.
+ */
 final class FlightPainter {
   private static final int MOST_WITH_NUMBERS = 60; // sensors
   private static final int MOST_FILLED = 25;
@@ -27,13 +30,9 @@ final class FlightPainter {
     this.scale = scale;
   }
 
-  private Step now() {
-    return flight.steps.get(shown - 1);
-  }
+  private Step now() { return flight.steps.get(shown - 1); }
 
-  private boolean isScheduled(int sensor) {
-    return now().scheduled() == sensor + 1;
-  }
+  private boolean isScheduled(int sensor) { return now().scheduled() == sensor + 1; }
 
   private boolean collects(int sensor) {
     return isScheduled(sensor) && field.covers(now().column(), now().row(), sensor);
@@ -42,14 +41,15 @@ final class FlightPainter {
   void paintCoverage(Graphics2D g) {
     Graphics2D clipped = (Graphics2D) g.create();
     clipped.clip(view.area());
+    boolean filled = field.sensors().size() <= MOST_FILLED;
     for (int n = 0; n < field.sensors().size(); ++n) {
       Color colour = collects(n) ? Palette.HIGHLIGHT : Palette.ACCENT;
       Shape circle = view.coverage(field.sensors().get(n));
-      if (field.sensors().size() <= MOST_FILLED) {
+      if (filled) {
         clipped.setColor(Palette.withAlpha(colour, collects(n) ? 40 : 20));
         clipped.fill(circle);
       }
-      clipped.setColor(Palette.withAlpha(colour, collects(n) ? 255 : 120));
+      clipped.setColor(Palette.withAlpha(colour, collects(n) ? 255 : filled ? 120 : 60));
       clipped.setStroke(Palette.stroke(collects(n) ? 1.8 : 1));
       clipped.draw(circle);
     }
@@ -93,8 +93,7 @@ final class FlightPainter {
     }
     g.setColor(collects(sensor) ? Palette.HIGHLIGHT : Palette.MUTED);
     float[] dashes = {6, 5};
-    g.setStroke(
-        collects(sensor)
+    g.setStroke(collects(sensor)
             ? Palette.stroke(2.5)
             : new BasicStroke(1.5f, BasicStroke.CAP_BUTT, BasicStroke.JOIN_ROUND, 1, dashes, 0));
     g.draw(new Line2D.Double(uav, view.placeOf(field.sensors().get(sensor))));
@@ -160,7 +159,5 @@ final class FlightPainter {
     g.draw(new Line2D.Double(corner(uav, arm, 1), corner(uav, arm, 2)));
   }
 
-  private Point2D placeOf(Step step) {
-    return view.place(step.column(), step.row());
-  }
+  private Point2D placeOf(Step step) { return view.place(step.column(), step.row()); }
 }

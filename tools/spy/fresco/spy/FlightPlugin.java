@@ -12,8 +12,7 @@ import lcm.spy.SpyPlugin;
 public final class FlightPlugin implements SpyPlugin {
   @Override
   public boolean canHandle(long fingerprint) {
-    return fingerprint == flight_t.LCM_FINGERPRINT
-        || fingerprint == scenario_t.LCM_FINGERPRINT
+    return fingerprint == flight_t.LCM_FINGERPRINT || fingerprint == scenario_t.LCM_FINGERPRINT
         || fingerprint == transitions_t.LCM_FINGERPRINT;
   }
 

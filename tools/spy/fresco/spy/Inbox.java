@@ -25,13 +25,9 @@ final class Inbox {
   private final List<Subscription> subscriptions = new ArrayList<>();
 
   /** The URL of every window; by default that of LCM_DEFAULT_URL. Before the first subscription. */
-  static void connect(String url) throws IOException {
-    lcm = new LCM(url);
-  }
+  static void connect(String url) throws IOException { lcm = new LCM(url); }
 
-  private static LCM connection() {
-    return lcm != null ? lcm : LCM.getSingleton();
-  }
+  private static LCM connection() { return lcm != null ? lcm : LCM.getSingleton(); }
 
   /** Hands the channel's messages to the handler, on the event thread. What does not decode is left out. */
   <M extends LCMEncodable> void subscribe(String channel, MessageType<M> type, Consumer<M> handler) {

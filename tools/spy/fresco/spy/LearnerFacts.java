@@ -13,25 +13,9 @@ final class LearnerFacts {
 
   private final JProgressBar progress = new JProgressBar(0, PARTS);
   private final JPanel panel = new JPanel(new BorderLayout());
-  private final Facts numbers =
-      new Facts(
-          4,
-          "updates",
-          "transitions",
-          "replay memory",
-          "actors",
-          "best average AoI",
-          "optimum",
-          "gap",
-          "loss",
-          "epsilon",
-          "learning rate",
-          "staleness",
-          "orders in flight",
-          "received",
-          "duplicate",
-          "rejected",
-          "asked again");
+  private final Facts numbers = new Facts(4, "updates", "transitions", "replay memory", "actors",
+      "best average AoI", "optimum", "gap", "loss", "epsilon", "learning rate", "staleness",
+      "orders in flight", "received", "duplicate", "rejected", "asked again");
   private final Facts words = new Facts(1, "waits for", "warning");
 
   LearnerFacts() {
@@ -42,15 +26,13 @@ final class LearnerFacts {
     panel.add(words, BorderLayout.SOUTH);
   }
 
-  JPanel component() {
-    return panel;
-  }
+  JPanel component() { return panel; }
 
   void show(learner_status_t status, double silentS) {
     double share = (double) status.episodes / Math.max(1, status.total_episodes);
     progress.setValue((int) (PARTS * Math.min(Math.max(share, 0), 1)));
     progress.setString(String.format(
-            "run %016x: %,d of %,d episodes", status.run_id, status.episodes, status.total_episodes));
+        "run %016x: %,d of %,d episodes", status.run_id, status.episodes, status.total_episodes));
     numbers.set("updates", String.format("%,d (%,.0f/s)", status.updates, status.updates_per_s));
     numbers.set("transitions", String.format("%,d (%,.0f/s)", status.transitions, status.transitions_per_s));
     numbers.set("replay memory", String.format("%,d transitions", status.replay_size));
@@ -70,7 +52,8 @@ final class LearnerFacts {
   private void showQuality(learner_status_t status) {
     boolean bounded = status.optimum_proved == 0 && Double.isFinite(status.lower_bound_average_aoi);
     numbers.set("best average AoI", Text.orDash("%.3f slots", status.best_average_aoi));
-    numbers.set("optimum", (bounded ? "above " : "") + Text.orDash("%.3f slots", status.lower_bound_average_aoi));
+    numbers.set(
+        "optimum", (bounded ? "above " : "") + Text.orDash("%.3f slots", status.lower_bound_average_aoi));
     numbers.set("gap", (bounded ? "at most " : "") + Text.orDash("%.2f %%", status.gap_percent));
     numbers.set("loss", Text.orDash("%.3g", status.loss));
   }
@@ -85,7 +68,5 @@ final class LearnerFacts {
     words.set("warning", warned ? status.warning : "none", faultIf(warned));
   }
 
-  private static Color faultIf(boolean fault) {
-    return fault ? Palette.FAULT : Palette.INK;
-  }
+  private static Color faultIf(boolean fault) { return fault ? Palette.FAULT : Palette.INK; }
 }

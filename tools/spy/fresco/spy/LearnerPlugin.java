@@ -11,8 +11,7 @@ import lcm.spy.SpyPlugin;
 public final class LearnerPlugin implements SpyPlugin {
   @Override
   public boolean canHandle(long fingerprint) {
-    return fingerprint == learner_status_t.LCM_FINGERPRINT
-        || fingerprint == run_t.LCM_FINGERPRINT;
+    return fingerprint == learner_status_t.LCM_FINGERPRINT || fingerprint == run_t.LCM_FINGERPRINT;
   }
 
   @Override

@@ -15,9 +15,11 @@ final class LearnerWindow extends Window {
 
   private final Curves loss =
       new Curves("Loss: mean squared temporal-difference error", "training episodes", "loss");
-  private final Curves aoi = new Curves("Average AoI of greedy flights", "training episodes", "average AoI, slots");
+  private final Curves aoi =
+      new Curves("Average AoI of greedy flights", "training episodes", "average AoI, slots");
   private final Curves gap =
-      new Curves("Gap of the best flight to the optimum, or to its bound until it is proved", "training episodes", "gap, %");
+      new Curves("Gap of the best flight to the optimum, or to its bound until it is proved",
+          "training episodes", "gap, %");
   private final Curves rates = new Curves("Rates", "training episodes", "a second");
   private final ITrace2D lossTrace = loss.add("loss", Palette.ACCENT, 1.6);
   private final ITrace2D lastTrace = aoi.add("last evaluation", Palette.series(5), 1.2);
@@ -49,9 +51,7 @@ final class LearnerWindow extends Window {
     return content;
   }
 
-  private List<Curves> all() {
-    return List.of(loss, aoi, gap, rates);
-  }
+  private List<Curves> all() { return List.of(loss, aoi, gap, rates); }
 
   private void add(learner_status_t status) {
     RunFollower.Hearing hearing = run.hear(status.run_id);

@@ -13,7 +13,8 @@ final class LiveFlights {
     }
     if (flight == null || !continues(message)) {
       String kind = "policy " + message.policy;
-      flight = new Flight(message.run_id, message.flight, kind, "fresco fly, flight " + (message.flight + 1L), true);
+      flight = new Flight(
+          message.run_id, message.flight, kind, "fresco fly, flight " + (message.flight + 1L), true);
     }
     flight.steps.add(stepOf(message));
     flight.outcome = message.outcome;
@@ -22,22 +23,12 @@ final class LiveFlights {
 
   private boolean continues(flight_t message) {
     Step last = flight.steps.get(flight.steps.size() - 1);
-    return message.run_id == flight.runId
-        && message.flight == flight.number
-        && message.slot > last.slot()
+    return message.run_id == flight.runId && message.flight == flight.number && message.slot > last.slot()
         && message.sensor_count == last.aoi().length;
   }
 
   private static Step stepOf(flight_t message) {
-    return new Step(
-        message.slot,
-        message.column,
-        message.row,
-        message.aoi,
-        message.move,
-        message.scheduled,
-        message.time_margin,
-        message.energy_margin_j,
-        message.remaining_energy_j);
+    return new Step(message.slot, message.column, message.row, message.aoi, message.move, message.scheduled,
+        message.time_margin, message.energy_margin_j, message.remaining_energy_j);
   }
 }

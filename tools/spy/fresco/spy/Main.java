@@ -2,6 +2,7 @@ package fresco.spy;
 
 import java.awt.AWTError;
 import java.awt.GraphicsEnvironment;
+import java.awt.HeadlessException;
 import java.io.IOException;
 import java.util.ArrayDeque;
 import java.util.Arrays;
@@ -12,8 +13,8 @@ import javax.swing.UIManager;
 import lcm.spy.Spy;
 
 /**
- * Starts lcm-spy with Fresco's types and windows: `fresco spy` runs it. Arguments, all of them: the LCM URL, the
- * channels' prefix, the windows to open (comma-separated, may be empty), and whether to print the table.
+ * Starts lcm-spy with Fresco's types and windows: `fresco spy` runs it. Arguments, all of them: the LCM URL,
+ * the channels' prefix, the windows to open (comma-separated, may be empty), and whether to print the table.
  */
 public final class Main {
   private static final int FAILED = 1;
@@ -25,8 +26,10 @@ public final class Main {
     Locale.setDefault(Locale.ROOT);
     try {
       start(new ArrayDeque<>(List.of(arguments)));
-    } catch (AWTError | NoClassDefFoundError | java.awt.HeadlessException error) {
-      fail(WRONG_USE, "no window can be opened: is there a display, and a full Java (default-jre)? " + error.getMessage());
+    } catch (AWTError | NoClassDefFoundError | HeadlessException error) {
+      fail(WRONG_USE,
+          "no window can be opened: is there a display, and a full Java (default-jre)? "
+              + error.getMessage());
     } catch (Exception error) {
       fail(FAILED, error.toString());
     }
@@ -38,7 +41,7 @@ public final class Main {
     String open = arguments.remove();
     boolean print = Boolean.parseBoolean(arguments.remove());
     if (GraphicsEnvironment.isHeadless()) {
-      throw new java.awt.HeadlessException("Java has no graphics here");
+      throw new HeadlessException("Java has no graphics here");
     }
     UIManager.put("swing.boldMetal", false);
     connect(url);
@@ -46,7 +49,10 @@ public final class Main {
     if (print) {
       new ChannelTable(spy).start();
     }
-    Arrays.stream(open.split(",")).filter(name -> !name.isEmpty()).map(Main::window).forEach(w -> w.open(prefix));
+    Arrays.stream(open.split(","))
+        .filter(name -> !name.isEmpty())
+        .map(Main::window)
+        .forEach(w -> w.open(prefix));
   }
 
   private static void connect(String url) {
@@ -57,9 +63,7 @@ public final class Main {
     }
   }
 
-  private static Windows window(String name) {
-    return Windows.valueOf(name.toUpperCase(Locale.ROOT));
-  }
+  private static Windows window(String name) { return Windows.valueOf(name.toUpperCase(Locale.ROOT)); }
 
   private static void fail(int status, String message) {
     System.err.println("fresco: error: spy: " + message);

@@ -10,8 +10,8 @@ import lcm.lcm.LCMDataInputStream;
 import lcm.lcm.LCMEncodable;
 
 /**
- * Decodes one of Fresco's messages, guarded as msgs/wire.h does it: LCM's decoders allocate whatever a count or
- * the length of a text says, so both are looked at before. Immutable; any thread.
+ * Decodes one of Fresco's messages, guarded as msgs/wire.h does it: LCM's decoders allocate whatever a count
+ * or the length of a text says, so both are looked at before. Immutable; any thread.
  */
 final class MessageType<M extends LCMEncodable> {
   /** LCM's decoder of a type: its constructor from a stream. */
@@ -52,7 +52,9 @@ final class MessageType<M extends LCMEncodable> {
     }
   }
 
-  /** The message, or null where it is damaged, of another type, or no sender of Fresco's would have made it. */
+  /**
+   * The message, or null where it is damaged, of another type, or no sender of Fresco's would have made it.
+   */
   M decode(LCMDataInputStream stream) {
     try {
       byte[] bytes = new byte[Math.min(stream.available(), LARGEST_MESSAGE_BYTES + 1)];
@@ -68,8 +70,7 @@ final class MessageType<M extends LCMEncodable> {
     int bytes = message.capacity();
     return bytes <= LARGEST_MESSAGE_BYTES
         && (crcHolds(message, bytes - CRC_BYTES) || crcHolds(message, bytes - CRC_BYTES - TAG_BYTES))
-        && countsAreAllowed(message)
-        && textsAreAllowed(message);
+        && countsAreAllowed(message) && textsAreAllowed(message);
   }
 
   private static boolean crcHolds(ByteBuffer message, int encodedBytes) {

@@ -15,7 +15,8 @@ final class MessageTypes {
   static final int MAXIMUM_SLOTS = 10_000;
 
   static final MessageType<scenario_t> SCENARIO = new MessageType<>(scenario_t::new, emptyScenario(), 0, 48);
-  static final MessageType<flight_t> FLIGHT = new MessageType<>(flight_t::new, emptyFlight(), 1, MAXIMUM_SENSORS);
+  static final MessageType<flight_t> FLIGHT =
+      new MessageType<>(flight_t::new, emptyFlight(), 1, MAXIMUM_SENSORS);
   static final MessageType<transitions_t> TRANSITIONS =
       new MessageType<>(transitions_t::new, emptyTransitions(), 0, 128, 129, MAXIMUM_SENSORS, 157);
   static final MessageType<orders_t> ORDERS = new MessageType<>(orders_t::new, emptyOrders(), 0, 27);

@@ -16,12 +16,10 @@ final class Palette {
   static final Color FAULT = new Color(0xa61b1b);
 
   private static final int[] VIRIDIS = {
-    0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725
-  };
+      0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
   // Okabe and Ito: told apart also by the colour-blind.
   private static final int[] SERIES = {
-    0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x5b4a8a, 0x8c6d31
-  };
+      0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x5b4a8a, 0x8c6d31};
   static final int SERIES_COLOURS = SERIES.length;
 
   private Palette() {}
@@ -35,15 +33,12 @@ final class Palette {
 
   /** A share of the way from one colour to the other. */
   static Color between(Color from, Color to, double share) {
-    return new Color(
-        (int) Math.round(from.getRed() + (to.getRed() - from.getRed()) * share),
+    return new Color((int) Math.round(from.getRed() + (to.getRed() - from.getRed()) * share),
         (int) Math.round(from.getGreen() + (to.getGreen() - from.getGreen()) * share),
         (int) Math.round(from.getBlue() + (to.getBlue() - from.getBlue()) * share));
   }
 
-  static Color series(int index) {
-    return new Color(SERIES[Math.floorMod(index, SERIES.length)]);
-  }
+  static Color series(int index) { return new Color(SERIES[Math.floorMod(index, SERIES.length)]); }
 
   static Color withAlpha(Color colour, int alpha) {
     return new Color(colour.getRed(), colour.getGreen(), colour.getBlue(), alpha);

@@ -1,9 +1,9 @@
 package fresco.spy;
 
 /**
- * Which flight is shown, and how far it has come. Episodes of a run arrive by the dozen a second: one is shown
- * from its start to its end at a pace that can be followed, then the newest whole one. A live flight is shown
- * as it arrives, and before episodes. On the event thread.
+ * Which flight is shown, and how far it has come. Episodes of a run arrive by the dozen a second: one is
+ * shown from its start to its end at a pace that can be followed, then the newest whole one. A live flight is
+ * shown as it arrives, and before episodes. On the event thread.
  */
 final class Player {
   /** What is shown. */
@@ -14,9 +14,7 @@ final class Player {
 
     private final String label;
 
-    Choice(String label) {
-      this.label = label;
-    }
+    Choice(String label) { this.label = label; }
 
     @Override
     public String toString() {
@@ -38,31 +36,21 @@ final class Player {
   private double heldS;
   private double silentS = LIVE_S; // of a live flight
 
-  Flight flight() {
-    return flight;
-  }
+  Flight flight() { return flight; }
 
-  double position() {
-    return position;
-  }
+  double position() { return position; }
 
   /** Steps that have begun, at least one. */
-  int shownSteps() {
-    return Math.min(flight.steps.size(), (int) position + 1);
-  }
+  int shownSteps() { return Math.min(flight.steps.size(), (int) position + 1); }
 
   void choose(Choice wanted) {
     choice = wanted;
     heldS = HOLD_S; // the next one may come at once
   }
 
-  void setSlotsPerS(double slots) {
-    slotsPerS = slots;
-  }
+  void setSlotsPerS(double slots) { slotsPerS = slots; }
 
-  void setPaused(boolean stop) {
-    paused = stop;
-  }
+  void setPaused(boolean stop) { paused = stop; }
 
   /** A whole episode. */
   void offer(Flight episode, boolean evaluation) {
@@ -101,9 +89,7 @@ final class Player {
     heldS = position < end ? 0 : heldS + seconds;
   }
 
-  private boolean isOver() {
-    return flight == null || (flight.live ? silentS >= LIVE_S : heldS >= HOLD_S);
-  }
+  private boolean isOver() { return flight == null || (flight.live ? silentS >= LIVE_S : heldS >= HOLD_S); }
 
   private void showNext() {
     Flight next = choice == Choice.NEWEST ? newest : choice == Choice.EVALUATIONS ? newestEvaluation : null;

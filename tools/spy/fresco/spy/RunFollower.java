@@ -8,19 +8,13 @@ final class RunFollower {
   private static final long SILENT_NS = 3_000_000_000L;
 
   /** Whether a message is of the run that is shown, and whether it is the first of it. */
-  enum Hearing {
-    SAME,
-    NEW,
-    OTHER
-  }
+  enum Hearing { SAME, NEW, OTHER }
 
   private boolean heard;
   private long runId;
   private long lastNs;
 
-  long runId() {
-    return runId;
-  }
+  long runId() { return runId; }
 
   Hearing hear(long run) {
     long now = System.nanoTime();
@@ -35,7 +29,5 @@ final class RunFollower {
   }
 
   /** Seconds since the run was heard of. */
-  double silentS() {
-    return heard ? (System.nanoTime() - lastNs) * 1e-9 : 0;
-  }
+  double silentS() { return heard ? (System.nanoTime() - lastNs) * 1e-9 : 0; }
 }

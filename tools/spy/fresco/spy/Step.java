@@ -11,17 +11,8 @@ package fresco.spy;
  * @param energyMarginJ joules beyond the flight to the stop
  * @param remainingEnergyJ on board; NaN where it is not told
  */
-record Step(
-    int slot,
-    int column,
-    int row,
-    short[] aoi,
-    int move,
-    int scheduled,
-    int timeMargin,
-    double energyMarginJ,
-    double remainingEnergyJ) {
-
+record Step(int slot, int column, int row, short[] aoi, int move, int scheduled, int timeMargin,
+    double energyMarginJ, double remainingEnergyJ) {
   private static final String[] MOVES = {"north", "south", "east", "west", "hover"};
 
   String moveName() {

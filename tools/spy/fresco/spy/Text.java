@@ -31,9 +31,8 @@ final class Text {
 
   /** Without a fraction where it has none. */
   static String number(double value) {
-    return value == Math.rint(value)
-        ? String.format(Locale.ROOT, "%.0f", value)
-        : String.format(Locale.ROOT, "%.4g", value);
+    return value == Math.rint(value) ? String.format(Locale.ROOT, "%.0f", value)
+                                     : String.format(Locale.ROOT, "%.4g", value);
   }
 
   /** "-" where it is not known. */

@@ -18,13 +18,9 @@ abstract class Window {
   private final Timer timer;
   private long lastTickNs = System.nanoTime();
 
-  Window(int periodMs) {
-    timer = new Timer(periodMs, event -> tick());
-  }
+  Window(int periodMs) { timer = new Timer(periodMs, event -> tick()); }
 
-  Inbox inbox() {
-    return inbox;
-  }
+  Inbox inbox() { return inbox; }
 
   void setTitle(String title) {
     if (!title.equals(frame.getTitle())) {
@@ -40,15 +36,14 @@ abstract class Window {
     frame.setSize(size);
     frame.setLocationByPlatform(true);
     frame.setDefaultCloseOperation(JFrame.DISPOSE_ON_CLOSE);
-    frame.addWindowListener(
-        new WindowAdapter() {
-          @Override
-          public void windowClosed(WindowEvent event) {
-            timer.stop();
-            inbox.close();
-            closed();
-          }
-        });
+    frame.addWindowListener(new WindowAdapter() {
+      @Override
+      public void windowClosed(WindowEvent event) {
+        timer.stop();
+        inbox.close();
+        closed();
+      }
+    });
     frame.setVisible(true);
     timer.start();
   }

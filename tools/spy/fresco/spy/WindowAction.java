@@ -9,8 +9,7 @@ final class WindowAction extends AbstractAction {
   private static final long serialVersionUID = 1;
   private static final String DEFAULT_PREFIX = "FRESCO";
   private static final String[] SUFFIXES = {
-    "_ORDERS", "_TRANSITIONS", "_ACTOR_STATUS", "_LEARNER_STATUS", "_SCENARIO", "_FLIGHT", "_RUN"
-  };
+      "_ORDERS", "_TRANSITIONS", "_ACTOR_STATUS", "_LEARNER_STATUS", "_SCENARIO", "_FLIGHT", "_RUN"};
 
   private final Windows window;
   private final String prefix;

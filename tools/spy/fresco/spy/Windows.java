@@ -17,12 +17,8 @@ enum Windows {
     this.opener = opener;
   }
 
-  String title() {
-    return title;
-  }
+  String title() { return title; }
 
   /** Opens one for the channels of this prefix. From any thread. */
-  void open(String prefix) {
-    SwingUtilities.invokeLater(() -> opener.accept(prefix));
-  }
+  void open(String prefix) { SwingUtilities.invokeLater(() -> opener.accept(prefix)); }
 }

@@ -31,22 +31,31 @@ public class FieldsTest {
 
   @Test
   public void leaveOutWhatNoScenarioCanBe() {
-    List<Consumer<scenario_t>> faults =
-        List.of(
-            message -> message.columns = 0,
-            message -> message.rows = 2_000_000,
-            message -> message.cell_m = Double.NaN,
-            message -> message.cell_m = -1,
-            message -> message.coverage_radius_m = Double.POSITIVE_INFINITY,
-            message -> message.start_row = 20,
-            message -> message.stop_column = -1,
-            message -> message.slots = 0,
-            message -> message.total_sensors = 2,
-            message -> message.total_sensors = Integer.MAX_VALUE,
-            message -> message.first_sensor = -1,
-            message -> message.first_sensor = Integer.MAX_VALUE,
-            message -> message.x_m[1] = Double.NaN,
-            message -> message.weight[2] = -1);
+    List<Consumer<scenario_t>> faults = List.of(message
+        -> message.columns = 0,
+        message
+        -> message.rows = 2_000_000,
+        message
+        -> message.cell_m = Double.NaN,
+        message
+        -> message.cell_m = -1,
+        message
+        -> message.coverage_radius_m = Double.POSITIVE_INFINITY,
+        message
+        -> message.start_row = 20,
+        message
+        -> message.stop_column = -1,
+        message
+        -> message.slots = 0,
+        message
+        -> message.total_sensors = 2,
+        message
+        -> message.total_sensors = Integer.MAX_VALUE,
+        message
+        -> message.first_sensor = -1,
+        message
+        -> message.first_sensor = Integer.MAX_VALUE,
+        message -> message.x_m[1] = Double.NaN, message -> message.weight[2] = -1);
     for (Consumer<scenario_t> fault : faults) {
       scenario_t message = Messages.scenario(3, 0, 3, 3);
       fault.accept(message);

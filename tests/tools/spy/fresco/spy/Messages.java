@@ -65,7 +65,10 @@ final class Messages {
     return message;
   }
 
-  /** Transitions `first` .. of an episode with two sensors; ages are slot numbers, columns transition numbers. */
+  /**
+   * Transitions `first` .. of an episode with two sensors; ages are slot numbers, columns transition
+   * numbers.
+   */
   static transitions_t transitions(long run, long order, int first, int count, int outcome) {
     transitions_t message = new transitions_t();
     message.run_id = run;
