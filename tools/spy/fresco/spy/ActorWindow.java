@@ -25,7 +25,7 @@ final class ActorWindow extends Window {
       new Curves("Transitions flown", "seconds since the window was opened", "transitions a second");
   private final Map<Long, ITrace2D> traces = new HashMap<>();
   private final ITrace2D sum = rates.add("all", Palette.INK, 2.2);
-  private final RunFollower run = new RunFollower();
+  private final RunFollower run = new RunFollower(System::nanoTime);
   private final String prefix;
   private double elapsedS;
   private double nextPointS;

@@ -29,7 +29,7 @@ final class LearnerWindow extends Window {
   private final ITrace2D transitionsTrace = rates.add("transitions", Palette.series(0), 1.6);
   private final ITrace2D updatesTrace = rates.add("updates", Palette.series(1), 1.6);
   private final LearnerFacts facts = new LearnerFacts();
-  private final RunFollower run = new RunFollower();
+  private final RunFollower run = new RunFollower(System::nanoTime);
   private final String prefix;
   private learner_status_t last;
   private double nextPoint;

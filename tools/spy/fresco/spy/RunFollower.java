@@ -1,5 +1,7 @@
 package fresco.spy;
 
+import java.util.function.LongSupplier;
+
 /**
  * Which run a window shows where there may be another on the same channels: the first heard of, until it has
  * been silent for a while. On the event thread.
@@ -10,14 +12,18 @@ final class RunFollower {
   /** Whether a message is of the run that is shown, and whether it is the first of it. */
   enum Hearing { SAME, NEW, OTHER }
 
+  private final LongSupplier clockNs;
   private boolean heard;
   private long runId;
   private long lastNs;
 
+  /** @param clockNs a clock that never jumps, nanoseconds */
+  RunFollower(LongSupplier clockNs) { this.clockNs = clockNs; }
+
   long runId() { return runId; }
 
   Hearing hear(long run) {
-    long now = System.nanoTime();
+    long now = clockNs.getAsLong();
     if (heard && run != runId && now - lastNs < SILENT_NS) {
       return Hearing.OTHER;
     }
@@ -29,5 +35,5 @@ final class RunFollower {
   }
 
   /** Seconds since the run was heard of. */
-  double silentS() { return heard ? (System.nanoTime() - lastNs) * 1e-9 : 0; }
+  double silentS() { return heard ? (clockNs.getAsLong() - lastNs) * 1e-9 : 0; }
 }
