@@ -14,7 +14,9 @@ if(FRESCO_SANITIZE)
   list(JOIN FRESCO_SANITIZE "," fresco_sanitizers)
   target_compile_options(fresco_compile_options INTERFACE
     -fsanitize=${fresco_sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-  target_link_options(fresco_compile_options INTERFACE -fsanitize=${fresco_sanitizers})
+  target_link_options(fresco_compile_options INTERFACE -fsanitize=${fresco_sanitizers}
+    # gcc's shared libubsan writes to standard error where libasan is there too, whatever log_path says.
+    $<$<CXX_COMPILER_ID:GNU>:-static-libasan;-static-libubsan>)
 endif()
 
 add_library(fresco_warnings INTERFACE)
@@ -37,6 +39,22 @@ function(fresco_executable name)
   target_link_libraries(${name} PRIVATE fresco_compile_options fresco_warnings)
 endfunction()
 
+# Sources of tests are compiled once and run for seconds: under a sanitizer, where the optimiser takes most of
+# the compiler's time, they do without it. The libraries that they test do not.
+add_library(fresco_test_options INTERFACE)
+target_compile_options(fresco_test_options INTERFACE $<$<BOOL:${FRESCO_SANITIZE}>:-O0>)
+target_link_libraries(fresco_test_options INTERFACE fresco_compile_options fresco_warnings)
+
+# fresco_test_headers(name LIBRARIES ... HEADERS ...): headers that are compiled once for many tests.
+function(fresco_test_headers name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;HEADERS")
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)  # CMake wants one, to know the language
+  file(CONFIGURE OUTPUT ${source} CONTENT "")
+  add_library(${name} OBJECT ${source})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} fresco_test_options GTest::gmock GTest::gtest)
+  target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+endfunction()
+
 # Builds every test program that carries the label unit, and no more than that.
 add_custom_target(unit_tests)
 
@@ -47,10 +65,16 @@ function(fresco_test name)
     set(arg_LABEL unit)
   endif()
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
+    set(arg_TIMEOUT 600)
   endif()
-  fresco_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main)
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} fresco_test_options GTest::gmock GTest::gtest GTest::gtest_main)
+  # tests/CMakeLists.txt has the two. Eigen comes with everything that knows of networks.
+  if(arg_LIBRARIES MATCHES "fresco_(nn|msgs|actors|learner|tools)")
+    target_precompile_headers(${name} REUSE_FROM fresco_eigen_test_headers)
+  else()
+    target_precompile_headers(${name} REUSE_FROM fresco_test_headers)
+  endif()
   if(arg_LABEL STREQUAL "unit")
     add_dependencies(unit_tests ${name})
   endif()

@@ -71,6 +71,8 @@ class Trainer {
   void Offer(NetworkKind kind, int32_t version, const Vector& parameters);
   void ForgetVersions();
   void CheckState(const TrainingState& state) const;
+  void CheckProgress(const TrainingState& state) const;
+  void CheckOrders(const TrainingState& state) const;
   void RefillReplay(const TrainingState& state);
   void WriteNextOrder();
   void WriteOrder(OrderKind kind);

@@ -82,6 +82,57 @@ void Trainer::CheckState(const TrainingState& state) const {
         fmt::format("it lacks a network version that order {} names", index));
     ++index;
   }
+  CheckProgress(state);
+  CheckOrders(state);
+}
+
+/// What holds of every training of this experiment: nothing of it can run over, and no update is missing.
+void Trainer::CheckProgress(const TrainingState& state) const {
+  const TrainerProgress& progress = state.progress;
+  const proto::Schedule& schedule = experiment_.schedule();
+  Expect(
+      0 <= progress.episodes && progress.episodes <= state.training_orders &&
+          state.training_orders <= schedule.episodes() && progress.episodes <= progress.committed_orders,
+      fmt::format("{} episodes of {} that were ordered and {} in all, {} orders committed", progress.episodes,
+                  state.training_orders, schedule.episodes(), progress.committed_orders));
+  Expect(progress.episodes <= progress.transitions &&
+             progress.transitions <= progress.episodes * world_->maximum_transitions(),
+         fmt::format("{} transitions of {} episodes", progress.transitions, progress.episodes));
+  Expect(0 <= progress.updates && progress.updates <= progress.transitions / schedule.inserts_per_update() &&
+             state.adam.steps == progress.updates,
+         fmt::format("{} updates and {} steps of the optimiser after {} transitions", progress.updates,
+                     state.adam.steps, progress.transitions));
+  const int64_t whole = progress.updates / schedule.updates_per_version();
+  const bool final_version = state.final_evaluation_written && progress.current_version == whole + 1;
+  Expect((progress.current_version == whole || final_version) &&
+             progress.target_version == progress.updates / experiment_.agent().target_update_period(),
+         fmt::format("versions {} and {} after {} updates", progress.current_version, progress.target_version,
+                     progress.updates));
+}
+
+/// The orders in flight: they name no older version than the one before, and are all that is not committed.
+void Trainer::CheckOrders(const TrainingState& state) const {
+  const TrainerProgress& progress = state.progress;
+  int64_t training = 0;
+  int32_t current = 0;
+  int32_t target = 0;
+  for (const auto& [order, updates_at_writing] : state.orders) {
+    Expect(current <= order.current_version && order.current_version <= progress.current_version &&
+               target <= order.target_version && order.target_version <= progress.target_version &&
+               0 <= updates_at_writing && updates_at_writing <= progress.updates,
+           fmt::format("order {} names versions {} and {} after {} updates", order.index,
+                       order.current_version, order.target_version, updates_at_writing));
+    current = order.current_version;
+    target = order.target_version;
+    training += order.kind == OrderKind::kTrain;
+  }
+  Expect(training == state.training_orders - progress.episodes,
+         fmt::format("expected {} training orders in flight, found {}",
+                     state.training_orders - progress.episodes, training));
+  const bool all = progress.episodes == experiment_.schedule().episodes();
+  Expect(state.final_evaluation_written ? all : !state.orders.empty(),
+         state.final_evaluation_written ? "the last evaluation stands before the last episode"
+                                        : "no order is in flight");
 }
 
 /// Flies the episodes again and puts every transition at the place that it had.

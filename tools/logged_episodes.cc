@@ -7,18 +7,12 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "msgs/message_decoder.h"
 
 namespace fresco {
 namespace {
 
 /// More than any run has in flight; what is open beyond is not going to be whole.
 constexpr size_t kMaximumOpenEpisodes = 8192;
-
-template <class Message>
-bool DecodeAs(const LcmEvent& event, Message& message) {
-  return BeginsAs<Message>(event.message) && Decode(WithoutAuthentication(event.message), message);
-}
 
 }  // namespace
 
@@ -42,37 +36,38 @@ std::optional<Episode> LoggedEpisodes::Assembly::Add(const transitions_t& messag
   return std::nullopt;
 }
 
-LoggedEpisodes::LoggedEpisodes(LogPaths paths, RunIdentity identity, const World& world,
+LoggedEpisodes::LoggedEpisodes(LogSource source, RunIdentity identity, const World& world,
                                MaskOptions mask_options)
-    : paths_(std::move(paths)),
+    : source_(std::move(source)),
       identity_(identity),
       world_(&world),
       mask_options_(mask_options),
-      logs_(std::make_unique<MergedEventLogs>(paths_)),
+      messages_(source_),
       assembly_(world, mask_options) {
   Survey();
 }
 
 void LoggedEpisodes::Survey() {
-  MergedEventLogs logs(paths_);
+  LogMessages messages(source_);
   Assembly assembly(*world_, mask_options_);
   orders_t orders{};
   weights_t weights{};
-  while (const auto event = logs.Next()) {
-    if (DecodeAs(*event, message_) && IsOurs(IdentityOf(message_)) &&
-        !whole_.contains(message_.order_index)) {
-      if (assembly.Add(message_)) {
-        whole_.insert(message_.order_index);
+  while (const auto message = messages.Next()) {
+    if (message->DecodeAs(transitions_) && IsOurs(IdentityOf(transitions_)) &&
+        !whole_.contains(transitions_.order_index)) {
+      if (assembly.Add(transitions_)) {
+        whole_.insert(transitions_.order_index);
       }
-    } else if (DecodeAs(*event, orders) && IsOurs(IdentityOf(orders))) {
+    } else if (message->DecodeAs(orders) && IsOurs(IdentityOf(orders))) {
       TakeOrders(orders);
-    } else if (DecodeAs(*event, weights) && IsOurs(IdentityOf(weights))) {
+    } else if (message->DecodeAs(weights) && IsOurs(IdentityOf(weights))) {
       // Which network a chunk is of is the channel's to say.
-      const auto kind = event->channel.ends_with("_TARGET") ? NetworkKind::kTarget : NetworkKind::kCurrent;
+      const auto kind = message->channel.ends_with("_TARGET") ? NetworkKind::kTarget : NetworkKind::kCurrent;
       weights_crcs_[{kind, weights.version}] = static_cast<uint32_t>(weights.crc32c);
     }
   }
-  totals_ = logs.totals();
+  totals_ = messages.totals();
+  refused_ = messages.refused();
 }
 
 void LoggedEpisodes::TakeOrders(const orders_t& message) {
@@ -115,12 +110,13 @@ Episode LoggedEpisodes::Take(int64_t order_index) {
   ahead_.erase(ahead_.begin(), ahead_.lower_bound(order_index));
   assembly_.Forget(order_index);
   while (!ahead_.contains(order_index)) {
-    const auto event = logs_->Next();
-    if (!event) {
-      throw Failure(fmt::format("{}: the log was changed while it was read", paths_.front().string()));
+    const auto message = messages_.Next();
+    if (!message) {
+      throw Failure(fmt::format("{}: the log was changed while it was read", source_.paths.front().string()));
     }
-    if (DecodeAs(*event, message_) && IsOurs(IdentityOf(message_)) && message_.order_index >= order_index) {
-      if (auto episode = assembly_.Add(message_)) {
+    if (message->DecodeAs(transitions_) && IsOurs(IdentityOf(transitions_)) &&
+        transitions_.order_index >= order_index) {
+      if (auto episode = assembly_.Add(transitions_)) {
         ahead_.try_emplace(episode->order_index, std::move(*episode));
       }
     }

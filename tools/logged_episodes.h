@@ -6,15 +6,14 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "bus/merged_event_logs.h"
 #include "learner/ledger.h"
 #include "msgs/order.h"
+#include "tools/log_messages.h"
 #include "tools/logged_runs.h"
 
 namespace fresco {
@@ -23,7 +22,7 @@ class LoggedEpisodes {
  public:
   /// `world` must outlive it; `mask_options` are those that the run flew with. Throws UsageError where a log
   /// can't be read.
-  LoggedEpisodes(LogPaths paths, RunIdentity identity, const World& world, MaskOptions mask_options);
+  LoggedEpisodes(LogSource source, RunIdentity identity, const World& world, MaskOptions mask_options);
 
   /// The orders of which the whole episode is in the logs.
   const std::set<int64_t>& whole() const { return whole_; }
@@ -35,6 +34,8 @@ class LoggedEpisodes {
   std::optional<uint32_t> WeightsCrc(NetworkKind kind, int32_t version) const;
   /// Of the logs.
   MergedEventLogs::Totals totals() const { return totals_; }
+  /// Messages of the logs that were passed over for want of a tag of the key.
+  int64_t refused() const { return refused_; }
 
   /// The whole episode of an order; CHECKs that it is one. The indices must rise from call to call. Throws
   /// Failure where the logs are not what they were.
@@ -61,7 +62,7 @@ class LoggedEpisodes {
   void Survey();
   void TakeOrders(const orders_t& message);
 
-  LogPaths paths_;
+  LogSource source_;
   RunIdentity identity_;
   const World* world_;
   MaskOptions mask_options_;
@@ -69,11 +70,12 @@ class LoggedEpisodes {
   std::map<int64_t, OrderKind> kinds_;
   std::map<std::pair<NetworkKind, int32_t>, uint32_t> weights_crcs_;
   MergedEventLogs::Totals totals_;
+  int64_t refused_ = 0;
 
   // Of Take.
-  std::unique_ptr<MergedEventLogs> logs_;
+  LogMessages messages_;
   Assembly assembly_;
-  transitions_t message_{};
+  transitions_t transitions_{};
   std::map<int64_t, Episode> ahead_;  // whole, and not yet asked for
 };
 

@@ -7,9 +7,7 @@
 #include <iterator>
 
 #include "actors/run_announcements.h"
-#include "bus/merged_event_logs.h"
 #include "core/error.h"
-#include "msgs/message_decoder.h"
 
 namespace fresco {
 namespace {
@@ -54,16 +52,15 @@ class Runs {
 
 }  // namespace
 
-std::vector<LoggedRun> FindLoggedRuns(const LogPaths& paths) {
+std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
   Runs runs;
-  MergedEventLogs logs(paths);
+  LogMessages messages(source);
   run_t run{};
   transitions_t transitions{};
-  while (const auto event = logs.Next()) {
-    if (BeginsAs<run_t>(event->message) && Decode(WithoutAuthentication(event->message), run)) {
+  while (const auto message = messages.Next()) {
+    if (message->DecodeAs(run)) {
       runs.Take(run);
-    } else if (BeginsAs<transitions_t>(event->message) &&
-               Decode(WithoutAuthentication(event->message), transitions)) {
+    } else if (message->DecodeAs(transitions)) {
       runs.Take(transitions);
     }
   }

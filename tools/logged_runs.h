@@ -2,16 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "msgs/wire.h"
+#include "tools/log_messages.h"
 
 namespace fresco {
-
-using LogPaths = std::vector<std::filesystem::path>;
 
 struct LoggedRun {
   RunIdentity identity;
@@ -22,7 +20,7 @@ struct LoggedRun {
 
 /// Those of which transitions or the configuration were recorded, in the order in which they appear. Throws
 /// UsageError where a log can't be read.
-std::vector<LoggedRun> FindLoggedRuns(const LogPaths& paths);
+std::vector<LoggedRun> FindLoggedRuns(const LogSource& source);
 
 /// The one with this id, as people write it (16 hexadecimal digits); with an empty text the only one. Throws
 /// UsageError that lists the runs where that does not name one.

@@ -22,6 +22,7 @@ int Main(int argc, char** argv) {
   AddFigures(app, command);
   AddSoak(app, command);
   AddLog(app, command);
+  AddSpy(app, command);
   app.footer("tools/fresco test runs all tests. Exit status: 0 done, 1 the work failed, 2 wrong use.");
   try {
     app.parse(argc, argv);

@@ -23,6 +23,7 @@ struct RetrainOptions {
   std::vector<std::string> settings;
   std::optional<uint64_t> seed;
   std::string out;
+  KeyFile key_file;
   bool strict = false;
   std::string format = "text";
 };
@@ -85,11 +86,14 @@ void WarnOfOtherArithmetic(const LoggedRun& run) {
 }
 
 int Retrain(const RetrainOptions& options) {
-  const LogPaths logs(options.logs.begin(), options.logs.end());
-  const LoggedRun run = ChooseLoggedRun(FindLoggedRuns(logs), options.run);
+  LogSource source{{options.logs.begin(), options.logs.end()}};
+  if (options.key_file) {
+    source.key = ReadAuthenticationKey(*options.key_file);
+  }
+  const LoggedRun run = ChooseLoggedRun(FindLoggedRuns(source), options.run);
   const Experiments experiments = ChooseExperiments(options, run);
   WarnOfOtherArithmetic(run);
-  RetrainRun retrain_run(logs, run, experiments.recorded ? *experiments.recorded : experiments.chosen,
+  RetrainRun retrain_run(source, run, experiments.recorded ? *experiments.recorded : experiments.chosen,
                          experiments.chosen, experiments.use, options.strict);
   const bool text = options.format == "text";
   const std::filesystem::path folder =
@@ -118,6 +122,9 @@ void AddRetrain(CLI::App& app, Command& command) {
   retrain->add_option("--seed", options->seed, "Seed of everything random but the recorded flights");
   retrain->add_option("--run", options->run,
                       "Which run of the log (16 hexadecimal digits); default: the only one");
+  retrain->add_option_function<std::string>(
+      "--key-file", [options = options.get()](const std::string& file) { options->key_file = file; },
+      "The run's key: take only messages that are authenticated with it");
   retrain->add_flag("--strict", options->strict,
                     "An episode that the log misses is an error, not flown again");
   retrain->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");

@@ -13,8 +13,13 @@ std::string RunIdText(const LoggedRun& run) {
   return fmt::format("{:016x}", static_cast<uint64_t>(run.identity.run_id));
 }
 
-std::string DamageText(const MergedEventLogs::Totals& totals) {
+std::string DamageText(const RetrainReport& report) {
+  const MergedEventLogs::Totals& totals = report.totals;
   std::string text;
+  if (report.refused > 0) {
+    text += fmt::format("{} messages of the log are not authenticated with the key and were passed over\n",
+                        report.refused);
+  }
   if (totals.torn_bytes > 0) {
     text += fmt::format("the log is cut short: its last event ({} bytes) is not whole\n", totals.torn_bytes);
   }
@@ -73,7 +78,7 @@ std::string RangesText(const std::vector<std::pair<int64_t, int64_t>>& ranges) {
 }
 
 std::string BeginText(const RetrainReport& report) {
-  std::string text = DamageText(report.totals);
+  std::string text = DamageText(report);
   text += fmt::format("retraining from run {}, ", RunIdText(report.run));
   text +=
       report.use == Retraining::Use::kSameRun
@@ -109,7 +114,8 @@ std::string WithRetrainReport(const std::string& summary_json, const RetrainRepo
                      {"different_versions", counts.different_versions},
                      {"log_bytes", report.totals.bytes},
                      {"damaged_bytes", report.totals.damaged_bytes},
-                     {"torn_bytes", report.totals.torn_bytes}};
+                     {"torn_bytes", report.totals.torn_bytes},
+                     {"refused_messages", report.refused}};
   return json.dump(2);
 }
 

@@ -14,6 +14,7 @@ struct RetrainReport {
   Retraining::Use use = Retraining::Use::kSameRun;
   std::vector<std::pair<int64_t, int64_t>> missing = {};  ///< see LoggedEpisodes::Missing
   MergedEventLogs::Totals totals = {};
+  int64_t refused = 0;  ///< messages without a tag of the key
   Retraining::Counts counts = {};
 };
 

@@ -40,15 +40,16 @@ void WaitForEnd(OptimumSearch& optimum, LiveLine& line) {
 
 }  // namespace
 
-RetrainRun::RetrainRun(const LogPaths& logs, const LoggedRun& run, const Experiment& recorded,
+RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Experiment& recorded,
                        const Experiment& chosen, Retraining::Use use, bool strict)
     : experiment_(chosen),
       world_(chosen.scenario()),
       strict_(strict),
-      report_{logs, run, use},
-      episodes_(logs, run.identity, world_, recorded.mask_options()) {
+      report_{source.paths, run, use},
+      episodes_(source, run.identity, world_, recorded.mask_options()) {
   report_.missing = episodes_.Missing();
   report_.totals = episodes_.totals();
+  report_.refused = episodes_.refused();
   if (strict && !report_.missing.empty()) {
     throw Failure(fmt::format(
         "--strict: the log misses the episodes of orders {}; without --strict they are flown again",

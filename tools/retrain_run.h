@@ -18,8 +18,8 @@ class RetrainRun {
  public:
   /// Reads through the logs. Throws UsageError where they can't be read, Failure where they miss an episode
   /// and `strict` is set.
-  RetrainRun(const LogPaths& logs, const LoggedRun& run, const Experiment& recorded, const Experiment& chosen,
-             Retraining::Use use, bool strict);
+  RetrainRun(const LogSource& source, const LoggedRun& run, const Experiment& recorded,
+             const Experiment& chosen, Retraining::Use use, bool strict);
 
   /// Trains, and writes the results into a new folder, as `train` does. Returns the summary's JSON with the
   /// report in it. Ends early, with what it has, where the program is asked to stop. Throws UsageError where

@@ -2,17 +2,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/stop_signal.h"
-#include "msgs/settings.h"
-#include "tools/installation.h"
 #include "tools/live_line.h"
+#include "tools/soak_options.h"
 #include "tools/soak_report.h"
 #include "tools/soak_round.h"
 #include "tools/subcommands.h"
@@ -21,64 +18,6 @@ namespace fresco {
 namespace {
 
 using Path = std::filesystem::path;
-
-struct SoakOptions {
-  double minutes = 5;
-  std::string config;
-  std::vector<std::string> settings;
-  std::optional<int> actors;
-  uint64_t seed = 1;
-  int first_round = 1;
-  int rounds = 0;  // 0: as many as the time is good for
-  std::string out;
-  std::string lcm_url;
-  std::string format = "text";
-};
-
-/// What a soak asks of a run, before --set: some seconds of training, nothing beside it, and checkpoints
-/// often enough that a killed learner has little to do again.
-Experiment SoakExperiment(const SoakOptions& options) {
-  Settings settings = {{"run.optimum_limit_s", "0"}, {"run.checkpoint_interval_s", "0.5"}};
-  if (options.config.empty()) {
-    settings.emplace_back("schedule.episodes", "2000");
-  }
-  const Settings given = ParseSettings(options.settings);
-  settings.insert(settings.end(), given.begin(), given.end());
-  if (options.actors) {
-    settings.emplace_back("run.actors", std::to_string(*options.actors));
-  }
-  if (!options.lcm_url.empty()) {
-    settings.emplace_back("run.lcm_url", options.lcm_url);
-  }
-  Experiment experiment =
-      Experiment::Load(options.config.empty() ? ConfigPath("ci.textproto") : options.config, settings);
-  if (experiment.run().actors() < 1) {
-    throw UsageError("run.actors: a soak kills and stops its own actors; expected at least 1, found 0");
-  }
-  return experiment;
-}
-
-std::string Quoted(const std::string& argument) {
-  return "'" + argument + "'";
-}
-
-std::string RepeatCommand(const SoakOptions& options, int round) {
-  std::string command =
-      fmt::format("tools/fresco soak --seed {} --first-round {} --rounds 1", options.seed, round);
-  if (!options.config.empty()) {
-    command += " --config " + Quoted(options.config);
-  }
-  for (const std::string& setting : options.settings) {
-    command += " --set " + Quoted(setting);
-  }
-  if (options.actors) {
-    command += fmt::format(" --actors {}", *options.actors);
-  }
-  if (!options.lcm_url.empty()) {
-    command += " --lcm-url " + Quoted(options.lcm_url);
-  }
-  return command;
-}
 
 class Soak {
  public:
@@ -91,6 +30,9 @@ class Soak {
     if (std::filesystem::exists(report_.folder) && !std::filesystem::is_empty(report_.folder)) {
       throw UsageError(fmt::format("--out: {} is not empty; name a new folder for this soak's runs",
                                    report_.folder.string()));
+    }
+    if (options.key_file) {
+      ReadAuthenticationKey(*options.key_file);  // a bad one is wrong use, not a round that failed
     }
   }
 
@@ -110,7 +52,8 @@ class Soak {
   double LeftSeconds() const { return 60 * options_.minutes - ElapsedSeconds(); }
 
   void RunUndisturbed() {
-    const RoundOptions options = {experiment_, report_.folder / "undisturbed", {}, 0, 60 * options_.minutes};
+    const RoundOptions options = {experiment_, report_.folder / "undisturbed", {},
+                                  0,           60 * options_.minutes,          options_.key_file};
     report_.undisturbed = RunRound(options, Progress("the undisturbed run"));
     report_.failures = report_.undisturbed.failures;
     for (std::string& failure : report_.failures) {
@@ -136,9 +79,9 @@ class Soak {
     const double usual_s = report_.undisturbed.wall_s;
     const FaultPlan plan(options_.seed, number, experiment_.run().actors());
     SoakRoundReport round = {number, ToText(plan.disturbance()), {}, RepeatCommand(options_, number)};
-    round.result = RunRound(
-        {experiment_, report_.folder / fmt::format("round-{}", number), plan, 4 * usual_s, 8 * usual_s + 60},
-        Progress(fmt::format("round {}", number)));
+    round.result = RunRound({experiment_, report_.folder / fmt::format("round-{}", number), plan, 4 * usual_s,
+                             8 * usual_s + 60, options_.key_file},
+                            Progress(fmt::format("round {}", number)));
     Judge(round.result);
     longest_round_s_ = std::max(longest_round_s_, round.result.wall_s);
     faults_before_ += round.result.faults.size();
@@ -205,22 +148,7 @@ void AddSoak(CLI::App& app, Command& command) {
   auto options = std::make_shared<SoakOptions>();
   CLI::App* soak = app.add_subcommand(
       "soak", "Train again and again under random faults and hold the weights against an undisturbed run");
-  soak->add_option("--minutes", options->minutes, "For so long; at least one round is run whatever it takes")
-      ->capture_default_str()
-      ->check(CLI::Range(0.01, 1e5));
-  soak->add_option("--config", options->config,
-                   "Experiment; default: configs/ci.textproto with 2,000 episodes");
-  soak->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
-  soak->add_option("--actors", options->actors, "Local actor processes")->check(CLI::Range(1, 1024));
-  soak->add_option("--seed", options->seed, "Of the faults")->capture_default_str();
-  soak->add_option("--first-round", options->first_round, "Begin with this round's faults")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1'000'000'000));
-  soak->add_option("--rounds", options->rounds, "So many rounds at most; default: what fits into the time")
-      ->check(CLI::Range(1, 1'000'000'000));
-  soak->add_option("--out", options->out, "New folder for the runs; default: one under runs/");
-  soak->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
-  soak->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  AddSoakOptions(*soak, *options);
   soak->callback([options, &command] { command = [options] { return RunSoak(*options); }; });
 }
 

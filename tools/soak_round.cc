@@ -20,6 +20,7 @@ constexpr double kSecondsPerMicrosecond = 1e-6;
 class Round {
  public:
   Round(const RoundOptions& options, const RoundProgress& show) : options_(options), show_(show) {
+    bus_.key_file = options_.key_file;
     if (options_.plan) {
       bus_.disturbance = options_.plan->disturbance();
       injector_.emplace(*options_.plan, [this] { return StartGuest(); });
@@ -128,10 +129,17 @@ class Round {
     const proto::Run& run = options_.experiment.run();
     LossOptions disturbance = *bus_.disturbance;
     disturbance.seed += 500 + guests_++;
-    return std::make_unique<ChildProcess>(
-        std::vector<std::string>{SiblingProgram("fresco-actor").string(), "--lcm-url", run.lcm_url(),
-                                 "--channel-prefix", run.channel_prefix(), "--disturb", ToText(disturbance)},
-        options_.folder / "guest.log");
+    std::vector<std::string> arguments = {SiblingProgram("fresco-actor").string(),
+                                          "--lcm-url",
+                                          run.lcm_url(),
+                                          "--channel-prefix",
+                                          run.channel_prefix(),
+                                          "--disturb",
+                                          ToText(disturbance)};
+    if (bus_.key_file) {
+      arguments.insert(arguments.end(), {"--key-file", bus_.key_file->string()});
+    }
+    return std::make_unique<ChildProcess>(arguments, options_.folder / "guest.log");
   }
 
   void Fail(const std::string& failure) {

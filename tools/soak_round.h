@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/authentication_key.h"
 #include "msgs/experiment.h"
 #include "tools/fault_injector.h"
 #include "tools/fault_plan.h"
@@ -21,6 +22,7 @@ struct RoundOptions {
   std::optional<FaultPlan> plan = {};  ///< none: undisturbed
   double faults_s = 0;                 ///< no fault after so long, so that the round comes to its end
   double limit_s = 0;                  ///< given up after so long
+  KeyFile key_file = {};               ///< of every process
 };
 
 struct RoundResult {

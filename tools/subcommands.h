@@ -17,5 +17,6 @@ void AddFly(CLI::App& app, Command& command);
 void AddFigures(CLI::App& app, Command& command);
 void AddSoak(CLI::App& app, Command& command);
 void AddLog(CLI::App& app, Command& command);
+void AddSpy(CLI::App& app, Command& command);
 
 }  // namespace fresco

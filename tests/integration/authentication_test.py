@@ -110,8 +110,9 @@ class Authentication(FrescoTest):
         train = ["train", "--config", CI_CONFIG, "--lcm-url", url(17414), "--out", self.folder / "out"]
         learner = ["--config", CI_CONFIG, "--lcm-url", url(17414), "--out", self.folder / "out"]
         figures = ["figures", "--quick", "--lcm-url", url(17414), "--out", self.folder / "study"]
+        soak = ["soak", "--lcm-url", url(17414), "--out", self.folder / "out"]
         for path, words in bad:
-            for program, arguments in [("fresco", train), ("fresco", figures), ("fresco-learner", learner),
+            for program, arguments in [("fresco", train), ("fresco", figures), ("fresco", soak), ("fresco-learner", learner),
                                        ("fresco-actor", ["--lcm-url", url(17414)])]:
                 with self.subTest(program=program, path=path):
                     _, errors = self.run_fresco(*arguments, "--key-file", path, program=program, expect=2)

@@ -1,5 +1,6 @@
 """`fresco figures --quick`: real runs over real LCM; every number holds together, and a stopped study goes on."""
 import csv
+import json
 import os
 import signal
 import struct
@@ -7,7 +8,7 @@ import sys
 import unittest
 import xml.etree.ElementTree
 
-from fresco_process import FrescoTest, processes_with, url, wait_until
+from fresco_process import CI_CONFIG, FrescoTest, processes_with, url, wait_until
 
 FIGURES = ["radius", "sensors", "energy", "energy_dear_flight", "learning_curve", "flight_dqn", "flight_optimal",
            "flight_aoi", "flight_distance"]
@@ -20,8 +21,8 @@ def rows_of(path):
 
 class Figures(FrescoTest):
     def figures(self, port, *arguments, expect=0, **options):
-        return self.run_fresco("figures", "--quick", "--lcm-url", url(port), "--out", self.folder / "study", *arguments,
-                               expect=expect, **options)
+        return self.run_fresco("figures", "--quick", "--config", CI_CONFIG, "--lcm-url", url(port), "--out",
+                               self.folder / "study", *arguments, expect=expect, **options)
 
     def check_deployment_figure(self, name, column, values):
         rows = rows_of(self.folder / "study" / f"{name}.csv")
@@ -56,9 +57,10 @@ class Figures(FrescoTest):
         self.assertEqual(sum(int(slot[f"aoi_{n}"]) for slot in slots for n in (1, 2, 3)), total_aoi)
 
     def test_stops_goes_on_and_writes_every_figure(self):
-        process = self.start("figures", "--quick", "--lcm-url", url(17331), "--out", self.folder / "study")
+        process = self.start("figures", "--quick", "--config", CI_CONFIG, "--lcm-url", url(17331), "--out",
+                             self.folder / "study", "--parallel", 2)
         runs_folder = self.folder / "study" / "runs"
-        wait_until(lambda: list(runs_folder.glob("*/summary.json")), "a first complete run")
+        wait_until(lambda: len(list(runs_folder.glob("*/checkpoints"))) >= 3, "a first complete run, and a third")
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1, errors)
@@ -66,7 +68,12 @@ class Figures(FrescoTest):
         self.assertEqual(processes_with(":17331"), [])
         complete = {path: path.stat().st_mtime_ns for path in runs_folder.glob("*/summary.json")
                     if '"completed": true' in path.read_text()}
+        interrupted = {path.parent for path in runs_folder.glob("*/checkpoints")} - {path.parent for path in complete}
+        self.assertTrue(complete)
+        self.assertTrue(interrupted)
         self.figures(17331)
+        for folder in interrupted:
+            self.assertEqual(json.loads((folder / "summary.json").read_text())["resumptions"], 1, folder)
         for path, written in complete.items():
             self.assertEqual(path.stat().st_mtime_ns, written, "a complete run was flown again")
         self.check_deployment_figure("radius", "radius_cells", ["2", "4"])

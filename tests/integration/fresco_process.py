@@ -10,7 +10,9 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BIN = pathlib.Path(os.environ["FRESCO_BIN"])
-CI_CONFIG = ROOT / "configs" / "ci.textproto"
+# Programs with a sanitizer are slow: another configuration then, and deadlines so many times longer.
+CI_CONFIG = pathlib.Path(os.environ.get("FRESCO_CI_CONFIG", ROOT / "configs" / "ci.textproto"))
+PATIENCE = float(os.environ.get("FRESCO_PATIENCE", 1))
 
 
 def url(port):
@@ -35,11 +37,17 @@ def actors_on(port):
 
 
 def wait_until(condition, what, timeout_s=60):
+    timeout_s *= PATIENCE
     deadline = time.monotonic() + timeout_s
     while not condition():
         if time.monotonic() > deadline:
             raise AssertionError(f"waited {timeout_s} s for {what}")
         time.sleep(0.01)
+
+
+class Process(subprocess.Popen):
+    def communicate(self, input=None, timeout=None):
+        return super().communicate(input, timeout and timeout * PATIENCE)
 
 
 class FrescoTest(unittest.TestCase):
@@ -53,7 +61,7 @@ class FrescoTest(unittest.TestCase):
 
     def start_command(self, command, **options):
         """A process that does not outlive a test that fails."""
-        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+        process = Process(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
         def end():
             if process.returncode is None:

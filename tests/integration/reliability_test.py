@@ -10,7 +10,7 @@ import sys
 import time
 import unittest
 
-from fresco_process import CI_CONFIG, FrescoTest, actors_on, url, wait_until
+from fresco_process import CI_CONFIG, PATIENCE, FrescoTest, actors_on, url, wait_until
 from hostile_packets import Flood, Recorder, hostile_packets
 
 PORT = 17360
@@ -42,9 +42,9 @@ class Reliability(FrescoTest):
                     os.kill(actors[count % len(actors)], number)
                 except ProcessLookupError:
                     pass
-                time.sleep(period_s)  # the moments of the fault
+                time.sleep(period_s * PATIENCE)  # the moments of the fault
             count += len(actors) > 0
-            time.sleep(rest_s or 0.01)
+            time.sleep(rest_s * PATIENCE or 0.01)
         summary = self.summary_of(process)
         self.assertGreater(count, 0)
         return summary, f"{count} times"

@@ -3,7 +3,6 @@ import json
 import os
 import shutil
 import signal
-import subprocess
 import sys
 import time
 import unittest
@@ -54,11 +53,12 @@ class Silence(FrescoTest):
         actor = programs / "fresco-actor"
         actor.write_text("#!/bin/sh\necho 'this host has no such processor' >&2\nexit 3\n")
         actor.chmod(0o755)
-        process = subprocess.run([programs / "fresco", "train", "--config", CI_CONFIG, "--lcm-url", url(17372), "--out",
-                                  self.folder / "hopeless"], capture_output=True, text=True, timeout=60)
-        self.assertEqual(process.returncode, 1, process.stderr)
-        self.assertIn("an actor ended 5 times right after its start", process.stderr)
-        self.assertIn("this host has no such processor", process.stderr)
+        process = self.start_command([programs / "fresco", "train", "--config", CI_CONFIG, "--lcm-url", url(17372), "--out",
+                                      self.folder / "hopeless"])
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertIn("an actor ended 5 times right after its start", errors)
+        self.assertIn("this host has no such processor", errors)
         wait_until(lambda: not processes_with(str(self.folder)), "the processes to end")
 
     def test_starts_an_actor_that_is_killed_at_once_again_after_growing_pauses(self):

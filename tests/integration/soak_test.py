@@ -8,14 +8,15 @@ import signal
 import sys
 import unittest
 
-from fresco_process import FrescoTest, processes_with, url, wait_until
+from fresco_process import CI_CONFIG, PATIENCE, FrescoTest, processes_with, url, wait_until
 
 SHORT = ("--set", "schedule.episodes=800")
 
 
 class Soak(FrescoTest):
     def start_soak(self, port, *arguments):
-        return self.start("soak", "--lcm-url", url(port), "--out", self.folder / "soak", "--format", "json", *arguments)
+        return self.start("soak", "--config", CI_CONFIG, "--lcm-url", url(port), "--out", self.folder / "soak", "--format",
+                          "json", *arguments)
 
     def finish(self, process, expect):
         output, errors = process.communicate(timeout=300)
@@ -23,7 +24,7 @@ class Soak(FrescoTest):
         return json.loads(output)
 
     def test_finds_the_same_weights_under_every_kind_of_fault(self):
-        report = self.finish(self.start_soak(17390, "--minutes", 0.5, *SHORT), 0)
+        report = self.finish(self.start_soak(17390, "--minutes", 0.5 * PATIENCE, *SHORT), 0)
         self.assertEqual(report["verdict"], "equal")
         self.assertGreaterEqual(len(report["rounds"]), 1)
         self.assertEqual({r["weights_crc32c"] for r in report["rounds"]}, {report["undisturbed"]["weights_crc32c"]})
@@ -38,10 +39,15 @@ class Soak(FrescoTest):
         self.assertEqual(processes_with(":17390"), [])
         self.assertEqual(list(self.folder.rglob("*.tmp*")), [])
 
-    def test_has_a_round_again(self):
-        arguments = ("--seed", 5, "--first-round", 9, "--rounds", 1, *SHORT)
+    def test_has_a_round_again_with_its_key(self):
+        key = self.key()
+        arguments = ("--seed", 5, "--first-round", 9, "--rounds", 1, "--key-file", key, *SHORT)
         report = self.finish(self.start_soak(17391, *arguments), 0)
         self.assertEqual([r["round"] for r in report["rounds"]], [9])
+        self.assertIn("--seed 5 --first-round 9 --rounds 1", report["rounds"][0]["repeat"])
+        self.assertIn(f"--key-file '{key}'", report["rounds"][0]["repeat"])
+        undisturbed = json.loads((self.folder / "soak" / "undisturbed" / "summary.json").read_text())
+        self.assertEqual(undisturbed["bus"]["rejected_unauthenticated"], 0)
         first = pathlib.Path(self.folder / "soak").rename(self.folder / "first")
         again = self.finish(self.start_soak(17391, *arguments), 0)
         self.assertEqual(again["rounds"][0]["disturbance"], report["rounds"][0]["disturbance"])

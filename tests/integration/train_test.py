@@ -6,7 +6,7 @@ import subprocess
 import sys
 import unittest
 
-from fresco_process import CI_CONFIG, ROOT, FrescoTest, processes_with, read_log, url, wait_until
+from fresco_process import CI_CONFIG, PATIENCE, ROOT, FrescoTest, processes_with, read_log, url, wait_until
 
 SUMMARY_KEYS = {
     "run_id", "config_hash", "seed", "episodes", "transitions", "updates", "wall_s", "updates_per_s",
@@ -39,7 +39,7 @@ class Train(FrescoTest):
                 killed += 1
                 break
             try:
-                process.wait(0.4)
+                process.wait(0.4 * PATIENCE)
             except subprocess.TimeoutExpired:
                 pass
         output, errors = process.communicate()
@@ -128,7 +128,7 @@ class Train(FrescoTest):
         self.assertGreaterEqual(len(configs), 4)
         for config in configs:
             summary = self.train(17308, config.stem, "--set", "schedule.episodes=12", "--set",
-                                 "schedule.minimum_replay_size=200", config=config)
+                                 "schedule.minimum_replay_size=500", config=config)
             self.assertEqual(summary["episodes"], 12, config)
             self.assertGreater(summary["updates"], 0, config)
 

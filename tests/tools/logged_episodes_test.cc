@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "bus/authenticated_bus.h"
+#include "bus/bus.h"
 #include "core/crc32c.h"
 #include "core/error.h"
 #include "tests/tools/run_log.h"
@@ -25,8 +26,8 @@ class LoggedEpisodesTest : public testing::Test {
     events_ = EventsOf(live_, Identity(live_));
   }
 
-  LoggedEpisodes Open(const LogPaths& paths) const {
-    return {paths, Identity(live_), live_.world, live_.experiment.mask_options()};
+  LoggedEpisodes Open(const LogPaths& paths, std::optional<AuthenticationKey> key = {}) const {
+    return {{paths, std::move(key)}, Identity(live_), live_.world, live_.experiment.mask_options()};
   }
 
   /// Removes the transitions of these orders.
@@ -99,7 +100,40 @@ TEST_F(LoggedEpisodesTest, ReadsAuthenticatedMessages) {
   }
   WriteLog(directory_ / "log", events_);
   EXPECT_EQ(Open({directory_ / "log"}).whole().size(), live_.episodes.size());
-  EXPECT_EQ(FindLoggedRuns({directory_ / "log"}).size(), 1u);
+  EXPECT_EQ(FindLoggedRuns({{directory_ / "log"}}).size(), 1u);
+}
+
+/// The same events as they stand on a bus with this key.
+std::vector<OwnedEvent> Authenticated(const std::vector<OwnedEvent>& events, const AuthenticationKey& key) {
+  std::vector<OwnedEvent> authenticated;
+  const std::unique_ptr<Bus> plain = OpenLcmBus("memq://");
+  plain->SubscribeToAll([&](const LcmEvent& event) {
+    authenticated.push_back({static_cast<int64_t>(authenticated.size()),
+                             std::string(event.channel),
+                             {event.message.begin(), event.message.end()}});
+  });
+  const std::unique_ptr<Bus> keyed = MakeAuthenticatedBus(*plain, key);
+  for (const OwnedEvent& event : events) {
+    keyed->Publish(event.channel, event.message);
+    while (plain->Poll(1'000'000) == 0) {
+    }
+  }
+  return authenticated;
+}
+
+TEST_F(LoggedEpisodesTest, TakesOnlyWhatIsAuthenticatedWhereThereIsAKey) {
+  const AuthenticationKey key(std::vector<std::byte>(32, std::byte{1}));
+  const AuthenticationKey other_key(std::vector<std::byte>(32, std::byte{2}));
+  const size_t episodes = live_.episodes.size();
+  std::vector<OwnedEvent> log = Authenticated(events_, key);
+  log.insert(log.end(), events_.begin(), events_.end());
+  WriteLog(directory_ / "log", log);
+  const LoggedEpisodes authentic = Open({directory_ / "log"}, key);
+  EXPECT_EQ(authentic.whole().size(), episodes);
+  EXPECT_EQ(authentic.refused(), static_cast<int64_t>(events_.size()));
+  const LoggedEpisodes strange = Open({directory_ / "log"}, other_key);
+  EXPECT_TRUE(strange.whole().empty());
+  EXPECT_EQ(strange.refused(), static_cast<int64_t>(log.size()));
 }
 
 TEST_F(LoggedEpisodesTest, HoldsNoMoreThanBoundedPiecesWhateverTheLogHolds) {
@@ -138,7 +172,7 @@ TEST_F(LoggedEpisodesTest, FindsTheRunsOfALogAndTheirConfiguration) {
   std::erase_if(others, [](const OwnedEvent& event) { return event.channel == "FRESCO_RUN"; });
   events_.insert(events_.end(), others.begin(), others.end());
   WriteLog(directory_ / "log", events_);
-  const std::vector<LoggedRun> runs = FindLoggedRuns({directory_ / "log"});
+  const std::vector<LoggedRun> runs = FindLoggedRuns({{directory_ / "log"}});
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0].identity, Identity(live_));
   EXPECT_EQ(runs[0].config_text, live_.experiment.Text());

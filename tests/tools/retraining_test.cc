@@ -29,7 +29,7 @@ class RetrainingTest : public testing::Test {
                                       Use use = Use::kSameRun, bool strict = false) {
     const auto path = EmptyDirectory("retraining") / "log";
     WriteLog(path, events);
-    episodes_ = std::make_unique<LoggedEpisodes>(LogPaths{path}, Identity(live_), live_.world,
+    episodes_ = std::make_unique<LoggedEpisodes>(LogSource{{path}}, Identity(live_), live_.world,
                                                  live_.experiment.mask_options());
     auto retraining = std::make_unique<Retraining>(
         experiment, live_.world, *episodes_, use, strict,
@@ -81,9 +81,10 @@ TEST_F(RetrainingTest, FliesAgainWhatTheLogMisses) {
 }
 
 TEST_F(RetrainingTest, TakesEventsInAnyOrderTwiceAndWithOthersAmongThem) {
-  std::vector<OwnedEvent> events = EventsOf(live_, Identity(live_));
+  const std::vector<OwnedEvent> once = EventsOf(live_, Identity(live_));
   const std::vector<OwnedEvent> foreign = EventsOf(live_, Identity(live_, 78));
-  events.insert(events.end(), events.begin(), events.end());
+  std::vector<OwnedEvent> events = once;
+  events.insert(events.end(), once.begin(), once.end());
   events.insert(events.end(), foreign.begin(), foreign.end());
   events.push_back({0, "CAMERA", std::vector<std::byte>(200, std::byte{1})});
   std::reverse(events.begin(), events.end());
@@ -156,7 +157,7 @@ TEST_F(RetrainingTest, LeavesOutExperienceThatItsMasksForbid) {
   unmasked.Finish();
   const auto path = EmptyDirectory("unmasked") / "log";
   WriteLog(path, EventsOf(unmasked, Identity(unmasked)));
-  LoggedEpisodes episodes({path}, Identity(unmasked), unmasked.world, unmasked.experiment.mask_options());
+  LoggedEpisodes episodes({{path}}, Identity(unmasked), unmasked.world, unmasked.experiment.mask_options());
   const Experiment masked = SmallExperiment({{"schedule.episodes", "3"}});
   Retraining retraining(masked, unmasked.world, episodes, Use::kExperience, false,
                         [](const Trainer&, const Evaluation&) {});
