@@ -71,7 +71,7 @@ size_t FindSyncWord(std::span<const std::byte> bytes) {
 }  // namespace
 
 EventLogReader::EventLogReader(std::filesystem::path path)
-    : path_(std::move(path)), descriptor_(open(path_.c_str(), O_RDONLY | O_CLOEXEC)), block_(kBlockBytes) {
+    : path_(std::move(path)), descriptor_(open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (descriptor_ < 0) {
     throw UsageError(fmt::format("can't read {}: {}", path_.string(), std::strerror(errno)));
   }
@@ -195,13 +195,14 @@ bool EventLogReader::Buffer(size_t bytes) {
   if (end_ - begin_ >= bytes) {
     return true;
   }
-  if (position_ + static_cast<int64_t>(bytes) > FileBytes()) {
+  const int64_t file_bytes = FileBytes();
+  if (position_ + static_cast<int64_t>(bytes) > file_bytes) {
     return false;
   }
   std::move(block_.begin() + static_cast<ptrdiff_t>(begin_), block_.begin() + static_cast<ptrdiff_t>(end_),
             block_.begin());
   end_ -= std::exchange(begin_, 0);
-  block_.resize(std::max(block_.size(), bytes));
+  block_.resize(std::max({block_.size(), bytes, std::min(kBlockBytes, static_cast<size_t>(file_bytes))}));
   end_ += ReadAt(position_ + static_cast<int64_t>(end_), std::span(block_).subspan(end_));
   return end_ >= bytes;
 }
