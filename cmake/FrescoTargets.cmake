@@ -14,7 +14,9 @@ if(FRESCO_SANITIZE)
   list(JOIN FRESCO_SANITIZE "," fresco_sanitizers)
   target_compile_options(fresco_compile_options INTERFACE
     -fsanitize=${fresco_sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-  target_link_options(fresco_compile_options INTERFACE -fsanitize=${fresco_sanitizers})
+  target_link_options(fresco_compile_options INTERFACE -fsanitize=${fresco_sanitizers}
+    # gcc's shared libubsan writes to standard error where libasan is there too, whatever log_path says.
+    $<$<CXX_COMPILER_ID:GNU>:-static-libasan;-static-libubsan>)
 endif()
 
 add_library(fresco_warnings INTERFACE)

@@ -10,6 +10,7 @@
 #include "tools/live_line.h"
 #include "tools/log_commands.h"
 #include "tools/recorder.h"
+#include "tools/socket_drops.h"
 
 namespace fresco {
 namespace {
@@ -27,13 +28,16 @@ RecorderOptions RecorderOptionsFrom(const RecordOptions& options) {
 }
 
 std::string Text(const Recorder::Totals& totals) {
-  const std::string dropped =
-      totals.dropped_events > 0 ? fmt::format(", {} DROPPED", totals.dropped_events) : "";
-  return fmt::format("{} events, {:.1f} MB{}", totals.events, 1e-6 * static_cast<double>(totals.bytes),
-                     dropped);
+  return fmt::format("{} events, {:.1f} MB", totals.events, 1e-6 * static_cast<double>(totals.bytes));
 }
 
-/// Says it once, as soon as something is lost.
+std::string LossText(const Recorder::Totals& totals) {
+  const int64_t lost = DroppedDatagrams();
+  return (totals.dropped_events > 0 ? fmt::format(", {} DROPPED", totals.dropped_events) : "") +
+         (lost > 0 ? fmt::format(", {} packets LOST", lost) : "");
+}
+
+/// Says it once, as soon as the disk is found too slow.
 void WarnOfDrops(const Recorder::Totals& totals, bool& warned) {
   if (totals.dropped_events > 0 && !warned) {
     warned = true;
@@ -60,8 +64,15 @@ int Record(const RecordOptions& options) {
   const Recorder::Totals totals = recorder.Finish();
   line.Finish();
   WarnOfDrops(totals, warned);
+  if (DroppedDatagrams() > 0) {
+    spdlog::warn(
+        "{} packets were lost before this program saw them: its receive buffer was full (recv_buf_size in "
+        "the "
+        "URL is granted up to the sysctl net.core.rmem_max)",
+        DroppedDatagrams());
+  }
   const std::string files = totals.files > 1 ? fmt::format(" in {} files", totals.files) : "";
-  fmt::print("recorded: {}, {}{}\n", options.out, Text(totals), files);
+  fmt::print("recorded: {}, {}{}{}\n", options.out, Text(totals), LossText(totals), files);
   return 0;
 }
 

@@ -121,8 +121,9 @@ TEST(EventLogReader, SkipsAnEventWhoseSyncWordIsFlipped) {
 }
 
 TEST(EventLogReader, KeepsAnEventWithTheSyncWordInItBeforeDamage) {
-  const std::vector<LogEvent> events = {{1, "A", "before"},
-                                        {2, "B", "\xED\xA1\xDA\x01" + std::string(90, '\0')}};
+  std::vector<LogEvent> events = SampleEvents(2);
+  events.back().message = "\xED\xA1\xDA\x01";
+  events.back().message.resize(90);
   const Reading reading = ReadBytes(LogBytes(events) + "rubbish" + LogBytes(events));
   EXPECT_EQ(reading.events, (std::vector{events[0], events[1], events[0], events[1]}));
   EXPECT_EQ(reading.damaged_bytes, 7);

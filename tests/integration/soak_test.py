@@ -8,7 +8,7 @@ import signal
 import sys
 import unittest
 
-from fresco_process import CI_CONFIG, FrescoTest, processes_with, url, wait_until
+from fresco_process import CI_CONFIG, PATIENCE, FrescoTest, processes_with, url, wait_until
 
 SHORT = ("--set", "schedule.episodes=800")
 
@@ -24,7 +24,7 @@ class Soak(FrescoTest):
         return json.loads(output)
 
     def test_finds_the_same_weights_under_every_kind_of_fault(self):
-        report = self.finish(self.start_soak(17390, "--minutes", 0.5, *SHORT), 0)
+        report = self.finish(self.start_soak(17390, "--minutes", 0.5 * PATIENCE, *SHORT), 0)
         self.assertEqual(report["verdict"], "equal")
         self.assertGreaterEqual(len(report["rounds"]), 1)
         self.assertEqual({r["weights_crc32c"] for r in report["rounds"]}, {report["undisturbed"]["weights_crc32c"]})

@@ -2,6 +2,7 @@
 // with to the end. Thousands of them, a few fields of a true state changed at random.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -43,8 +44,8 @@ class AbsurdState : public ::testing::Test {
   /// Sets a number to an absurd one, or to one beside it.
   template <class Number>
   void Change(Number& number) {
-    number = stream_.NextBelow(2) == 0 ? static_cast<Number>(AbsurdNumber())
-                                       : static_cast<Number>(number + (stream_.NextBelow(2) == 0 ? 1 : -1));
+    const auto beside = static_cast<uint64_t>(number) + (stream_.NextBelow(2) == 0 ? 1 : ~uint64_t{0});
+    number = static_cast<Number>(stream_.NextBelow(2) == 0 ? AbsurdNumber() : static_cast<int64_t>(beside));
   }
 
   void ChangeProgress(TrainerProgress& progress) {

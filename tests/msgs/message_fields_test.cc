@@ -38,9 +38,14 @@ std::vector<std::string> FieldsVisited(const Message& message) {
   return names;
 }
 
+template <class Message>
+void ExpectTheFieldsOfTheFile() {
+  EXPECT_EQ(FieldsVisited(Message{}), FieldsInFile(Message::getTypeName()));
+}
+
 template <class... Message>
 void ExpectAll(const std::tuple<Message...>*) {
-  (EXPECT_EQ(FieldsVisited(Message{}), FieldsInFile(Message::getTypeName())), ...);
+  (ExpectTheFieldsOfTheFile<Message>(), ...);
 }
 
 TEST(ForEachField, VisitsTheFieldsOfEveryTypeInTheOrderOfItsFile) {
@@ -68,17 +73,18 @@ size_t EncodedBytes(const Value& value) {
   }
 }
 
+template <class Message>
+void ExpectSize(RandomStream& stream) {
+  constexpr size_t kFingerprintBytes = 8;
+  const auto message = RandomMessage<Message>(stream);
+  EXPECT_EQ(kFingerprintBytes + EncodedBytes(message), static_cast<size_t>(message.getEncodedSize()));
+}
+
 template <class... Message>
 void ExpectSizes(const std::tuple<Message...>*) {
-  constexpr size_t kFingerprintBytes = 8;
   RandomStream stream(6, RandomPurpose::kTest, 0, 0);
   for (int i = 0; i < 10; ++i) {
-    (
-        [&] {
-          const auto message = RandomMessage<Message>(stream);
-          EXPECT_EQ(kFingerprintBytes + EncodedBytes(message), static_cast<size_t>(message.getEncodedSize()));
-        }(),
-        ...);
+    (ExpectSize<Message>(stream), ...);
   }
 }
 

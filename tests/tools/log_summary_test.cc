@@ -42,7 +42,7 @@ transitions_t Transitions(int64_t order, int32_t first, int count, int8_t outcom
   return message;
 }
 
-run_t Run(int32_t part, int8_t finished) {
+run_t RunMessage(int32_t part, int8_t finished) {
   RandomStream stream(9, RandomPurpose::kTest, 1, 0);
   run_t message = RunOf(stream, 10);
   Stamp(message, kRun, 1);
@@ -63,13 +63,13 @@ actor_status_t Status(int64_t sequence) {
 
 TEST(LogSummary, TellsRunsEpisodesAndActors) {
   Log log;
-  log.Add("FRESCO_RUN", Run(0, 0));
+  log.Add("FRESCO_RUN", RunMessage(0, 0));
   log.Add("FRESCO_TRANSITIONS", Transitions(0, 0, 4, 0));
   log.Add("FRESCO_TRANSITIONS", Transitions(0, 4, 2, 1));
   log.Add("FRESCO_TRANSITIONS", Transitions(0, 4, 2, 1));
   log.Add("FRESCO_TRANSITIONS", Transitions(3, 4, 2, 1));
   EXPECT_FALSE(log.summary.runs().at(kRun.run_id).config_known());
-  log.Add("FRESCO_RUN", Run(1, 1));
+  log.Add("FRESCO_RUN", RunMessage(1, 1));
   for (const int64_t sequence : {5, 6, 9, 10}) {
     log.Add("FRESCO_ACTOR_STATUS", Status(sequence));
   }
