@@ -131,26 +131,31 @@ bool EventLogReader::SwallowsAnother(size_t event_bytes) {
 /// Whether an event begins behind the beginning of the one at hand, and before `end`, that is whole and has
 /// another or the file's end behind it: so that a message may contain the sync word.
 bool EventLogReader::HasWholeEvent(int64_t end) {
+  if (whole_event_ > position_) {
+    return whole_event_ < end;
+  }
   int64_t offset = position_ + static_cast<int64_t>(kSyncBytes);
   std::vector<std::byte> block;
-  while (whole_event_ < offset && offset < end) {
-    block.resize(std::min(kBlockBytes, static_cast<size_t>(end - offset) + kSyncBytes - 1));
-    const size_t bytes = ReadAt(offset, block);
-    const size_t found = FindSyncWord(std::span<const std::byte>(block).first(bytes));
-    if (found < bytes) {
-      offset += static_cast<int64_t>(found);
-      if (WholeEventBeginsAt(offset)) {
-        whole_event_ = offset;
-      } else {
-        offset += static_cast<int64_t>(kSyncBytes);
+  std::span<const std::byte> rest;  // of the block, from the offset on
+  while (offset < end) {
+    if (rest.size() < kSyncBytes) {
+      block.resize(std::min(kBlockBytes, static_cast<size_t>(end - offset) + kSyncBytes - 1));
+      rest = std::span<const std::byte>(block).first(ReadAt(offset, block));
+      if (rest.size() < kSyncBytes) {
+        return false;
       }
-    } else if (bytes < block.size()) {
-      return false;
-    } else {
-      offset += static_cast<int64_t>(bytes - (kSyncBytes - 1));
     }
+    const size_t found = FindSyncWord(rest);
+    const bool is_there = found < rest.size();
+    if (is_there && WholeEventBeginsAt(offset + static_cast<int64_t>(found))) {
+      whole_event_ = offset + static_cast<int64_t>(found);
+      return true;
+    }
+    const size_t passed = is_there ? found + kSyncBytes : rest.size() - (kSyncBytes - 1);
+    offset += static_cast<int64_t>(passed);
+    rest = rest.subspan(passed);
   }
-  return whole_event_ >= offset && whole_event_ < end;
+  return false;
 }
 
 bool EventLogReader::WholeEventBeginsAt(int64_t offset) const {

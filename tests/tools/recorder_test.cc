@@ -35,9 +35,10 @@ TEST(Recorder, WritesWhatIsOnTheBusUpToItsEnd) {
   Publish(*bus, events);
   const auto totals = recorder.Finish();
   const auto read = ReadWithLcm(folder.path() / "log");
-  auto expected = Messages(events);
-  expected.insert(expected.end(), expected.begin(), expected.end());
-  EXPECT_EQ(Messages(read), expected);
+  const auto once = Messages(events);
+  auto expected = once;
+  expected.insert(expected.end(), once.begin(), once.end());
+  EXPECT_TRUE(Messages(read) == expected);  // too much to print
   EXPECT_EQ(totals.events, 10'000);
   EXPECT_EQ(totals.bytes, static_cast<int64_t>(std::filesystem::file_size(folder.path() / "log")));
   EXPECT_EQ(totals.dropped_events, 0);

@@ -81,9 +81,10 @@ TEST_F(RetrainingTest, FliesAgainWhatTheLogMisses) {
 }
 
 TEST_F(RetrainingTest, TakesEventsInAnyOrderTwiceAndWithOthersAmongThem) {
-  std::vector<OwnedEvent> events = EventsOf(live_, Identity(live_));
+  const std::vector<OwnedEvent> once = EventsOf(live_, Identity(live_));
   const std::vector<OwnedEvent> foreign = EventsOf(live_, Identity(live_, 78));
-  events.insert(events.end(), events.begin(), events.end());
+  std::vector<OwnedEvent> events = once;
+  events.insert(events.end(), once.begin(), once.end());
   events.insert(events.end(), foreign.begin(), foreign.end());
   events.push_back({0, "CAMERA", std::vector<std::byte>(200, std::byte{1})});
   std::reverse(events.begin(), events.end());
