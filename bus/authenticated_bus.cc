@@ -18,6 +18,18 @@ const unsigned char* Data(std::span<const std::byte> bytes) {
   return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
+const Tag& TagOf(const AuthenticationKey& key, std::string_view channel, std::span<const std::byte> content,
+                 Tag& tag) {
+  constexpr unsigned char kEndOfChannel = 0;  // no name is the beginning of another and a content
+  crypto_generichash_state state;
+  crypto_generichash_init(&state, key.bytes().data(), key.bytes().size(), tag.size());
+  crypto_generichash_update(&state, Data(std::as_bytes(std::span(channel))), channel.size());
+  crypto_generichash_update(&state, &kEndOfChannel, 1);
+  crypto_generichash_update(&state, Data(content), content.size());
+  crypto_generichash_final(&state, tag.data(), tag.size());
+  return tag;
+}
+
 class AuthenticatedBus : public Bus {
  public:
   AuthenticatedBus(Bus& inner, const AuthenticationKey& key) : inner_(&inner), key_(key) {}
@@ -26,7 +38,7 @@ class AuthenticatedBus : public Bus {
 
   bool Publish(const std::string& channel, std::span<const std::byte> message) override {
     const std::lock_guard lock(publish_mutex_);
-    const auto tag = std::as_bytes(std::span(TagOf(channel, message, published_tag_)));
+    const auto tag = std::as_bytes(std::span(TagOf(key_, channel, message, published_tag_)));
     published_.assign(message.begin(), message.end());
     published_.insert(published_.end(), tag.begin(), tag.end());
     return inner_->Publish(channel, published_);
@@ -35,7 +47,7 @@ class AuthenticatedBus : public Bus {
   void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
     const auto authenticate = [this, channel,
                                handler = std::move(handler)](std::span<const std::byte> message) {
-      if (const auto content = Authentic(channel, message)) {
+      if (const auto content = AuthenticContent(key_, channel, message)) {
         handler(*content);
       } else {
         refused_.fetch_add(1, std::memory_order_relaxed);
@@ -57,31 +69,6 @@ class AuthenticatedBus : public Bus {
   }
 
  private:
-  const Tag& TagOf(const std::string& channel, std::span<const std::byte> content, Tag& tag) const {
-    crypto_generichash_state state;
-    crypto_generichash_init(&state, key_.bytes().data(), key_.bytes().size(), tag.size());
-    // With the zero byte that ends it: no name is the beginning of another and a content.
-    crypto_generichash_update(&state, reinterpret_cast<const unsigned char*>(channel.c_str()),
-                              channel.size() + 1);
-    crypto_generichash_update(&state, Data(content), content.size());
-    crypto_generichash_final(&state, tag.data(), tag.size());
-    return tag;
-  }
-
-  /// The content where the tag behind it holds; compared in a time that does not depend on where they differ.
-  std::optional<std::span<const std::byte>> Authentic(const std::string& channel,
-                                                      std::span<const std::byte> message) const {
-    if (message.size() < kAuthenticationTagBytes) {
-      return std::nullopt;
-    }
-    const auto content = message.first(message.size() - kAuthenticationTagBytes);
-    Tag expected;
-    TagOf(channel, content, expected);
-    const bool holds = sodium_memcmp(expected.data(), Data(message.last(kAuthenticationTagBytes)),
-                                     kAuthenticationTagBytes) == 0;
-    return holds ? std::optional(content) : std::nullopt;
-  }
-
   std::unique_ptr<Bus> owned_;  // where it is this one's own
   Bus* inner_;
   AuthenticationKey key_;
@@ -92,6 +79,20 @@ class AuthenticatedBus : public Bus {
 };
 
 }  // namespace
+
+std::optional<std::span<const std::byte>> AuthenticContent(const AuthenticationKey& key,
+                                                           std::string_view channel,
+                                                           std::span<const std::byte> message) {
+  if (message.size() < kAuthenticationTagBytes) {
+    return std::nullopt;
+  }
+  const auto content = message.first(message.size() - kAuthenticationTagBytes);
+  Tag expected;
+  TagOf(key, channel, content, expected);
+  const bool holds = sodium_memcmp(expected.data(), Data(message.last(kAuthenticationTagBytes)),
+                                   kAuthenticationTagBytes) == 0;
+  return holds ? std::optional(content) : std::nullopt;
+}
 
 std::unique_ptr<Bus> MakeAuthenticatedBus(Bus& inner, const AuthenticationKey& key) {
   return std::make_unique<AuthenticatedBus>(inner, key);

@@ -8,6 +8,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
 
 #include "bus/authentication_key.h"
 #include "bus/bus.h"
@@ -15,6 +18,12 @@
 namespace fresco {
 
 inline constexpr size_t kAuthenticationTagBytes = 32;
+
+/// The content of a message as it stands on the wire or in a log, where the tag behind it is that of this key
+/// and channel; nullopt otherwise. Compares in a time that does not depend on where they differ. Thread-safe.
+std::optional<std::span<const std::byte>> AuthenticContent(const AuthenticationKey& key,
+                                                           std::string_view channel,
+                                                           std::span<const std::byte> message);
 
 /// Authenticates what passes to and from `inner`, which must outlive the decorator and must not be polled
 /// after its end. Threads as of any bus; receiving allocates nothing.

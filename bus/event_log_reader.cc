@@ -100,7 +100,7 @@ std::optional<LcmEvent> EventLogReader::Next() {
       if (!SwallowsAnother(header.event_bytes())) {
         return Take(header.event_bytes(), static_cast<size_t>(header.channel_bytes));
       }
-    } else if (header.IsPossible() && !AnotherEventFollows()) {
+    } else if (header.IsPossible() && !HasWholeEvent(FileBytes())) {
       break;
     }
     SkipDamage();
@@ -125,29 +125,47 @@ bool EventLogReader::SwallowsAnother(size_t event_bytes) {
   if (!Buffer(event_bytes + kSyncBytes) || IsSyncWord(buffered().data() + event_bytes)) {
     return false;
   }
-  const auto content = buffered().subspan(kSyncBytes, event_bytes);
-  return FindSyncWord(content) < content.size();
+  return HasWholeEvent(position_ + static_cast<int64_t>(event_bytes));
 }
 
-/// Whether the event at hand, which ends beyond the file's end, has a damaged length: another begins within.
-bool EventLogReader::AnotherEventFollows() const {
-  std::vector<std::byte> block(kBlockBytes);
-  int64_t offset = position_ + static_cast<int64_t>(kSyncBytes);
-  while (true) {
-    const size_t bytes = ReadAt(offset, block);
-    const auto read = std::span<const std::byte>(block).first(bytes);
-    const size_t found = FindSyncWord(read);
-    if (found + kHeaderBytes <= bytes) {
-      if (Header(read.data() + found).IsPossible()) {
-        return true;
-      }
-      offset += static_cast<int64_t>(found + kSyncBytes);
-    } else if (bytes < block.size()) {
-      return false;
-    } else {
-      offset += static_cast<int64_t>(std::min(found, bytes - (kSyncBytes - 1)));
-    }
+/// Whether an event begins behind the beginning of the one at hand, and before `end`, that is whole and has
+/// another or the file's end behind it: so that a message may contain the sync word.
+bool EventLogReader::HasWholeEvent(int64_t end) {
+  if (whole_event_ > position_) {
+    return whole_event_ < end;
   }
+  int64_t offset = position_ + static_cast<int64_t>(kSyncBytes);
+  std::vector<std::byte> block;
+  std::span<const std::byte> rest;  // of the block, from the offset on
+  while (offset < end) {
+    if (rest.size() < kSyncBytes) {
+      block.resize(std::min(kBlockBytes, static_cast<size_t>(end - offset) + kSyncBytes - 1));
+      rest = std::span<const std::byte>(block).first(ReadAt(offset, block));
+      if (rest.size() < kSyncBytes) {
+        return false;
+      }
+    }
+    const size_t found = FindSyncWord(rest);
+    const bool is_there = found < rest.size();
+    if (is_there && WholeEventBeginsAt(offset + static_cast<int64_t>(found))) {
+      whole_event_ = offset + static_cast<int64_t>(found);
+      return true;
+    }
+    const size_t passed = is_there ? found + kSyncBytes : rest.size() - (kSyncBytes - 1);
+    offset += static_cast<int64_t>(passed);
+    rest = rest.subspan(passed);
+  }
+  return false;
+}
+
+bool EventLogReader::WholeEventBeginsAt(int64_t offset) const {
+  std::array<std::byte, kHeaderBytes> bytes;
+  if (ReadAt(offset, bytes) < kHeaderBytes || !Header(bytes.data()).IsPossible()) {
+    return false;
+  }
+  const int64_t end = offset + static_cast<int64_t>(Header(bytes.data()).event_bytes());
+  const bool has_next = ReadAt(end, std::span(bytes).first(kSyncBytes)) == kSyncBytes;
+  return end == FileBytes() || (has_next && IsSyncWord(bytes.data()));
 }
 
 /// To the next sync word behind the one at hand.

@@ -40,7 +40,8 @@ class EventLogReader {
  private:
   LcmEvent Take(size_t event_bytes, size_t channel_bytes);
   bool SwallowsAnother(size_t event_bytes);
-  bool AnotherEventFollows() const;
+  bool HasWholeEvent(int64_t end);
+  bool WholeEventBeginsAt(int64_t offset) const;
   void SkipDamage();
   std::span<const std::byte> buffered() const;
   bool Buffer(size_t bytes);
@@ -55,6 +56,7 @@ class EventLogReader {
   int64_t position_ = 0;
   int64_t damaged_bytes_ = 0;
   int64_t torn_bytes_ = 0;
+  int64_t whole_event_ = -1;  // where HasWholeEvent has found one: it looks at no byte of damage twice
 };
 
 }  // namespace fresco

@@ -61,7 +61,11 @@ void EventLogWriter::Write(const LcmEvent& event) {
     ThrowDiskError();
   }
   ++events_;
-  bytes_ += kHeaderBytes + static_cast<int64_t>(event.channel.size() + event.message.size());
+  bytes_ += EventBytes(event);
+}
+
+int64_t EventLogWriter::EventBytes(const LcmEvent& event) {
+  return kHeaderBytes + static_cast<int64_t>(event.channel.size() + event.message.size());
 }
 
 void EventLogWriter::Flush() {

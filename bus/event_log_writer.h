@@ -27,6 +27,9 @@ class EventLogWriter {
   /// Hands everything written to the system. Throws Failure where the disk does not take it.
   void Flush();
 
+  /// What an event takes in a log.
+  static int64_t EventBytes(const LcmEvent& event);
+
   int64_t events() const { return events_; }
   int64_t bytes() const { return bytes_before_ + bytes_; }
   int files() const { return files_; }

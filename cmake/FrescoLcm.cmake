@@ -30,4 +30,23 @@ function(fresco_lcm_types target package)
   add_dependencies(${target} ${target}_generate)
   target_include_directories(${target} SYSTEM INTERFACE ${directory})
   target_link_libraries(${target} INTERFACE fresco_lcm)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+  set_target_properties(${target} PROPERTIES FRESCO_LCM_SOURCES "${sources}")
+endfunction()
+
+# fresco_lcm_java_sources(variable target package): sets the variable to the Java sources of the types of a target
+# that fresco_lcm_types made.
+function(fresco_lcm_java_sources variable target package)
+  get_target_property(sources ${target} FRESCO_LCM_SOURCES)
+  set(directory ${CMAKE_CURRENT_BINARY_DIR}/lcm-java)
+  file(MAKE_DIRECTORY ${directory})
+  set(outputs)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source STEM stem)
+    set(output ${directory}/${package}/${stem}.java)
+    add_custom_command(OUTPUT ${output} COMMAND ${LCM_GEN} -j --jpath ${directory} ${source}
+      DEPENDS ${source} COMMENT "lcm-gen -j ${stem}.lcm" VERBATIM)
+    list(APPEND outputs ${output})
+  endforeach()
+  set(${variable} ${outputs} PARENT_SCOPE)
 endfunction()

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "core/clock.h"
+#include "msgs/scenario_codec.h"
 
 namespace fresco {
 namespace {
@@ -15,6 +16,7 @@ constexpr int64_t kRunPeriodUs = 500'000;
 constexpr int64_t kAskedRunPeriodUs = 50'000;
 constexpr int64_t kOrdersPeriodUs = 2'000;
 constexpr int64_t kStatusPeriodUs = 200'000;
+constexpr int64_t kScenarioPeriodUs = 1'000'000;
 constexpr int64_t kPollUs = 1'000;
 // Pacing: 8 chunks, then 0.2 ms, is complete even on Linux's default socket buffers.
 constexpr int kChunksPerBurst = 8;
@@ -212,6 +214,7 @@ void LearnerNode::Step() {
     now_us = clock_.Look(begin_us);
   }
   SendRunIfDue(now_us);
+  SendScenarioIfDue(now_us);
   SendOrders(now_us);
   SendWeights(now_us);
   SendStatusIfDue(now_us);
@@ -249,6 +252,15 @@ void LearnerNode::SendRun(bool finished) {
     announcement_.part.assign(text.begin(), text.end());
     announcement_.part_size = static_cast<int32_t>(text.size());
     Publish(channels_.run, announcement_);
+  }
+}
+
+void LearnerNode::SendScenarioIfDue(int64_t now_us) {
+  if (now_us >= next_scenario_us_) {
+    next_scenario_us_ = now_us + kScenarioPeriodUs;
+    for (const scenario_t& message : ScenarioMessages(world_->scenario())) {
+      Publish(channels_.scenario, message);
+    }
   }
 }
 

@@ -77,6 +77,7 @@ class LearnerNode {
 
   void SendRunIfDue(int64_t now_us);
   void SendRun(bool finished);
+  void SendScenarioIfDue(int64_t now_us);
   void SendOrders(int64_t now_us);
   void SendWeights(int64_t now_us);
   void SendStatusIfDue(int64_t now_us);
@@ -124,6 +125,7 @@ class LearnerNode {
   std::vector<std::byte> bytes_;
   Episode run_;
   int64_t next_run_us_ = 0;
+  int64_t next_scenario_us_ = 0;
   int64_t next_orders_us_ = 0;
   int64_t next_status_us_ = 0;
   int64_t next_burst_us_ = 0;

@@ -23,7 +23,9 @@ Channels ChannelsWithPrefix(const std::string& prefix) {
           prefix + "_WEIGHTS_CURRENT",
           prefix + "_WEIGHTS_TARGET",
           prefix + "_ACTOR_STATUS",
-          prefix + "_LEARNER_STATUS"};
+          prefix + "_LEARNER_STATUS",
+          prefix + "_SCENARIO",
+          prefix + "_FLIGHT"};
 }
 
 }  // namespace fresco

@@ -13,6 +13,8 @@ struct Channels {
   std::string weights_target;
   std::string actor_status;
   std::string learner_status;
+  std::string scenario;
+  std::string flight;
 };
 
 inline constexpr char kDefaultChannelPrefix[] = "FRESCO";

@@ -15,7 +15,8 @@
 namespace fresco {
 
 /// Every message of Fresco that stands on a channel of its own.
-using MessageTypes = std::tuple<run_t, orders_t, transitions_t, weights_t, actor_status_t, learner_status_t>;
+using MessageTypes = std::tuple<run_t, orders_t, transitions_t, weights_t, actor_status_t, learner_status_t,
+                                scenario_t, flight_t>;
 
 /// The message without the tag behind it, where it carries one (see CarriesAuthentication). Checks no key.
 std::span<const std::byte> WithoutAuthentication(std::span<const std::byte> bytes);

@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "fresco/actor_status_t.hpp"
+#include "fresco/flight_t.hpp"
 #include "fresco/learner_status_t.hpp"
 #include "fresco/orders_t.hpp"
 #include "fresco/run_t.hpp"
+#include "fresco/scenario_t.hpp"
 #include "fresco/transitions_t.hpp"
 #include "fresco/weights_t.hpp"
 
@@ -38,8 +40,9 @@ inline constexpr int kMaximumParts = 1024;
 inline constexpr int kMaximumHeldVersions = 32;
 inline constexpr int kMaximumMissingRanges = 32;
 inline constexpr int kMaximumSensors = 250;
+inline constexpr int kMaximumSensorsPerScenario = 48;
 inline constexpr size_t kMaximumHostBytes = 64;
-/// Of what a learner status says to people, in each of its two texts.
+/// Of what a learner status says to people, in each of its two texts, and of the name of a policy.
 inline constexpr size_t kMaximumTextBytes = 240;
 inline constexpr int kValuesPerChunk = 308;
 
@@ -75,6 +78,14 @@ inline std::initializer_list<int32_t> CountMaxima(const actor_status_t&) {
 inline std::initializer_list<int32_t> CountMaxima(const learner_status_t&) {
   return {};
 }
+inline std::initializer_list<int32_t> CountMaxima(const scenario_t&) {
+  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumSensorsPerScenario};
+  return kMaxima;
+}
+inline std::initializer_list<int32_t> CountMaxima(const flight_t&) {
+  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumSensors};
+  return kMaxima;
+}
 
 /// LCM's encoding without the trailer; empty where the size is not allowed or the CRC does not hold.
 std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes);
@@ -101,6 +112,8 @@ template <>
 inline constexpr int kTexts<actor_status_t> = 1;
 template <>
 inline constexpr int kTexts<learner_status_t> = 2;
+template <>
+inline constexpr int kTexts<flight_t> = 1;
 
 template <class Message>
 bool TextsAreAllowed(std::span<const std::byte> encoding, const Message&) {

@@ -30,7 +30,9 @@ std::string CellText(const CsvCell& cell) {
   return std::visit([](const auto& value) { return fmt::format("{}", value); }, cell);
 }
 
-std::string RowText(const std::vector<CsvCell>& row) {
+}  // namespace
+
+std::string CsvLine(const std::vector<CsvCell>& row) {
   std::string line;
   for (const CsvCell& cell : row) {
     if (&cell != &row.front()) {
@@ -42,13 +44,11 @@ std::string RowText(const std::vector<CsvCell>& row) {
   return line;
 }
 
-}  // namespace
-
 std::string CsvText(const std::vector<std::string>& header, const std::vector<std::vector<CsvCell>>& rows) {
-  std::string text = RowText({header.begin(), header.end()});
+  std::string text = CsvLine({header.begin(), header.end()});
   for (const std::vector<CsvCell>& row : rows) {
     FRESCO_CHECK(row.size() == header.size());
-    text += RowText(row);
+    text += CsvLine(row);
   }
   return text;
 }

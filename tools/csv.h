@@ -11,6 +11,9 @@ namespace fresco {
 
 using CsvCell = std::variant<std::string, int64_t, double>;
 
+/// One row, ending in a line feed, quoted and rounded as CsvText says.
+std::string CsvLine(const std::vector<CsvCell>& row);
+
 /// One line a row, ending in a line feed; the header first. Text is quoted as RFC 4180 says where it has
 /// to be; a double has the fewest digits that read back as the same double. Every row has as many cells
 /// as the header.

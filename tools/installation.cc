@@ -22,6 +22,15 @@ std::filesystem::path SiblingProgram(const std::string& name) {
   return path;
 }
 
+std::string SharedFile(const std::string& name) {
+  const std::filesystem::path path = OwnDirectory().parent_path() / "share/fresco" / name;
+  if (!std::filesystem::exists(path)) {
+    throw UsageError("expected " + path.string() +
+                     ", found none; tools/fresco spy installs a Java development kit and builds it");
+  }
+  return path.string();
+}
+
 std::string ConfigPath(const std::string& name) {
   const std::filesystem::path relative = std::filesystem::path("configs") / name;
   // build/<preset>/bin in the source tree; <prefix>/bin when installed.

@@ -17,8 +17,12 @@ int Main(int argc, char** argv) {
   Command command;
   AddTrain(app, command);
   AddEvaluate(app, command);
+  AddRetrain(app, command);
+  AddFly(app, command);
   AddFigures(app, command);
   AddSoak(app, command);
+  AddLog(app, command);
+  AddSpy(app, command);
   app.footer("tools/fresco test runs all tests. Exit status: 0 done, 1 the work failed, 2 wrong use.");
   try {
     app.parse(argc, argv);

@@ -12,7 +12,11 @@ using Command = std::function<int()>;
 
 void AddTrain(CLI::App& app, Command& command);
 void AddEvaluate(CLI::App& app, Command& command);
+void AddRetrain(CLI::App& app, Command& command);
+void AddFly(CLI::App& app, Command& command);
 void AddFigures(CLI::App& app, Command& command);
 void AddSoak(CLI::App& app, Command& command);
+void AddLog(CLI::App& app, Command& command);
+void AddSpy(CLI::App& app, Command& command);
 
 }  // namespace fresco

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 
@@ -11,6 +9,7 @@
 #include "msgs/settings.h"
 #include "tools/installation.h"
 #include "tools/live_line.h"
+#include "tools/new_run_folder.h"
 #include "tools/run_report.h"
 #include "tools/subcommands.h"
 #include "tools/train_display.h"
@@ -27,6 +26,8 @@ struct TrainOptions {
   std::string out;
   std::string resume;
   std::string lcm_url;
+  bool record = false;
+  double record_split_mb = 0;
   BusOptions bus;
   std::string format = "text";
 };
@@ -43,15 +44,6 @@ Settings SettingsFrom(const TrainOptions& options) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
   return settings;
-}
-
-std::filesystem::path DefaultFolder() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char name[32];
-  std::strftime(name, sizeof name, "%Y%m%dT%H%M%SZ", &utc);
-  return std::filesystem::path("runs") / fmt::format("{}-{}", name, getpid());
 }
 
 /// Minds the run until it ends or the program is asked to stop; returns the learner's exit status.
@@ -84,11 +76,18 @@ std::string Interruption(const std::filesystem::path& folder) {
 }
 
 /// Runs it and shows what came out.
-int Train(TrainingRun& run, const std::filesystem::path& folder, bool text) {
+int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOptions& options) {
+  const bool text = options.format == "text";
+  if (options.record) {
+    run.Record(options.record_split_mb);
+  }
   const int status = MindRun(run);
   const std::string summary = run.Summary();
   fmt::print("{}", text ? ResultTable(summary) : summary);
   std::fflush(stdout);
+  if (options.record) {
+    fmt::print(text ? stdout : stderr, "{}{}\n", text ? "\n" : "", run.RecordingReport());
+  }
   WriteRunReport(folder);  // after the results: nothing that befalls a picture may hide them
   if (status != 0) {
     fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ngo on with it: {}\n",
@@ -104,25 +103,23 @@ int TrainAnew(const TrainOptions& options) {
   const Experiment experiment =
       Experiment::Load(options.config.empty() ? DefaultConfigPath() : options.config, SettingsFrom(options));
   const std::filesystem::path folder =
-      options.out.empty() ? DefaultFolder() : std::filesystem::path(options.out);
-  const bool text = options.format == "text";
-  if (text) {
+      options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
+  if (options.format == "text") {
     Announce(experiment, folder);
   }
   TrainingRun run(experiment, folder, options.bus);
-  return Train(run, folder, text);
+  return Train(run, folder, options);
 }
 
 int GoOn(const TrainOptions& options) {
   const Resumption resumption = ReadInterruptedRun(options.resume, SettingsFrom(options));
-  const bool text = options.format == "text";
-  if (text) {
+  if (options.format == "text") {
     fmt::print("going on after {} episodes; ",
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
   TrainingRun run(resumption, options.resume, options.bus);
-  return Train(run, options.resume, text);
+  return Train(run, options.resume, options);
 }
 
 }  // namespace
@@ -146,6 +143,12 @@ void AddTrain(CLI::App& app, Command& command) {
       ->excludes(seed)
       ->excludes(out);
   train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
+  CLI::Option* record = train->add_flag("--record", options->record, "Record all traffic to DIR/traffic.lcm");
+  train
+      ->add_option("--record-split-mb", options->record_split_mb,
+                   "Record in files of so many megabytes: traffic.lcm.00, traffic.lcm.01, ..")
+      ->needs(record)
+      ->check(CLI::Range(0.001, 1e9));
   AddBusOptions(*train, options->bus);
   train->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   train->callback([options, &command] {

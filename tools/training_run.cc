@@ -55,6 +55,10 @@ void TrainingRun::Listen() {
   bus_->Subscribe(channels.learner_status, take, kQueueCapacity);
 }
 
+void TrainingRun::Record(double split_mb) {
+  recorder_ = std::make_unique<RunRecorder>(folder_, experiment_.run().lcm_url(), split_mb);
+}
+
 void TrainingRun::Start() {
   learner_ = std::make_unique<ChildProcess>(LearnerArguments(), folder_ / "learner.log");
   heard_us_ = MonotonicMicroseconds();
@@ -66,6 +70,9 @@ bool TrainingRun::Step(int64_t timeout_us) {
     return false;
   }
   KeepActorsAlive();
+  if (recorder_) {
+    recorder_->Step();
+  }
   bus_->Poll(timeout_us);
   GiveUpOnASilentLearner();
   return true;
@@ -92,6 +99,9 @@ int TrainingRun::End() {
   constexpr int64_t kPatienceUs = 20'000'000;
   const int status = learner_->End(kPatienceUs);
   EndActors();
+  if (recorder_) {
+    recorder_->End();
+  }
   return status;
 }
 
@@ -130,8 +140,9 @@ std::string TrainingRun::Summary() const {
 }
 
 std::string TrainingRun::ResumeCommand() const {
-  return fmt::format("tools/fresco train --resume {}{}", folder_.string(),
-                     bus_options_.key_file ? " --key-file " + bus_options_.key_file->string() : "");
+  return fmt::format("tools/fresco train --resume {}{}{}", folder_.string(),
+                     bus_options_.key_file ? " --key-file " + bus_options_.key_file->string() : "",
+                     recorder_ ? " --record" : "");
 }
 
 std::vector<std::string> TrainingRun::LearnerArguments() {

@@ -16,6 +16,7 @@
 #include "msgs/wire.h"
 #include "tools/child_process.h"
 #include "tools/restart_policy.h"
+#include "tools/run_recorder.h"
 
 namespace fresco {
 
@@ -28,6 +29,10 @@ class TrainingRun {
   TrainingRun(const Resumption& resumption, std::filesystem::path folder, const BusOptions& bus_options = {});
   /// Ends every process that is still there.
   ~TrainingRun() = default;
+
+  /// Records the run's traffic from now on until End, in files of `split_mb` megabytes unless that is 0; to
+  /// be called before Start. Throws where it can't be recorded.
+  void Record(double split_mb);
 
   void Start();
 
@@ -57,7 +62,11 @@ class TrainingRun {
   /// log where it has left none.
   std::string Summary() const;
 
-  /// What goes on with this run where it was interrupted; with its key, without which it would go on open.
+  /// What was recorded, as RunRecorder::Report says; empty where nothing was to be. After End.
+  std::string RecordingReport() const { return recorder_ ? recorder_->Report() : ""; }
+
+  /// What goes on with this run where it was interrupted; with its key, without which it would go on open,
+  /// and recorded where it was.
   std::string ResumeCommand() const;
 
  private:
@@ -88,7 +97,8 @@ class TrainingRun {
   int64_t run_id_;
   std::unique_ptr<Bus> bus_;
   std::optional<learner_status_t> status_;
-  int64_t heard_us_ = 0;  // the learner's last status, or its start
+  int64_t heard_us_ = 0;                   // the learner's last status, or its start
+  std::unique_ptr<RunRecorder> recorder_;  // before learner and actors: it ends after them
   std::unique_ptr<ChildProcess> learner_;
   std::vector<ActorPlace> actors_;
   uint64_t started_processes_ = 0;

@@ -42,8 +42,8 @@ void CheckOne(const std::vector<std::byte>& bytes) {
 }
 
 constexpr void (*kChecks[])(const std::vector<std::byte>&) = {
-    CheckOne<run_t>,     CheckOne<orders_t>,       CheckOne<transitions_t>,
-    CheckOne<weights_t>, CheckOne<actor_status_t>, CheckOne<learner_status_t>,
+    CheckOne<run_t>,          CheckOne<orders_t>,         CheckOne<transitions_t>, CheckOne<weights_t>,
+    CheckOne<actor_status_t>, CheckOne<learner_status_t>, CheckOne<scenario_t>,    CheckOne<flight_t>,
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "bus/event_log_writer.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "msgs/checkpoint_file.h"
@@ -62,6 +63,8 @@ void WriteWire(const std::filesystem::path& directory) {
   AddMessages<weights_t>(stream, type++, corpus);
   AddMessages<actor_status_t>(stream, type++, corpus);
   AddMessages<learner_status_t>(stream, type++, corpus);
+  AddMessages<scenario_t>(stream, type++, corpus);
+  AddMessages<flight_t>(stream, type++, corpus);
 }
 
 /// A flight of random actions, safe ones where `mask` says so.
@@ -176,6 +179,28 @@ void WriteFiles(const std::filesystem::path& directory) {
   Corpus(directory, "checkpoint_fuzz").Add(SerializeCheckpoint(checkpoint));
 }
 
+/// A whole log, one that is cut, one with damage in its midst, and one whose messages hold a log.
+void WriteLogs(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / "log_of_the_corpus";
+  const auto log_of = [&](std::span<const std::byte> message) {
+    std::filesystem::remove(path);
+    EventLogWriter writer(path);
+    for (const std::string channel : {"FRESCO_RUN", "A", "FRESCO_TRANSITIONS"}) {
+      writer.Write({0, 1'700'000'000'000'000, channel, message});
+    }
+    writer.Flush();
+    return ReadFile(path);
+  };
+  RandomStream stream(1, RandomPurpose::kTest, 1, 0);
+  const std::string log = log_of(Encoded(OrdersOf(stream, 2)));
+  Corpus corpus(directory, "event_log_fuzz");
+  corpus.Add(log);
+  corpus.Add(std::string_view(log).substr(0, log.size() - 9));
+  corpus.Add(log.substr(0, log.size() / 2) + log);
+  corpus.Add(log_of(std::as_bytes(std::span(log))));
+  std::filesystem::remove(path);
+}
+
 }  // namespace
 }  // namespace fresco
 
@@ -191,6 +216,7 @@ int main(int argc, char** argv) {
     fresco::WriteTexts(directory, std::span(argv + 2, static_cast<size_t>(argc - 2)));
     fresco::WriteFiles(directory);
     fresco::WriteDictionaries(directory);
+    fresco::WriteLogs(directory);
     return 0;
   } catch (const fresco::Error& error) {
     std::fprintf(stderr, "write_corpus: %s\n", error.what());

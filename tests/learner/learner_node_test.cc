@@ -62,6 +62,17 @@ TEST_F(LearnerNodeTest, ShowsAWarningInItsStatusUntilItIsTakenBack) {
   EXPECT_EQ(NextStatus().warning, "");
 }
 
+TEST_F(LearnerNodeTest, TellsViewersItsField) {
+  scenario_t field{};
+  bus_->Subscribe(channels_.scenario,
+                  [&](std::span<const std::byte> bytes) { ASSERT_TRUE(Decode(bytes, field)); });
+  NextStatus();
+  EXPECT_EQ(IdentityOf(field), (RunIdentity{kRunId, experiment_.hash()}));
+  EXPECT_EQ(field.slots, world_.scenario().slots);
+  ASSERT_EQ(field.sensor_count, world_.sensors());
+  EXPECT_EQ(field.x_m[0], world_.scenario().sensors[0].x_m);
+}
+
 TEST_F(LearnerNodeTest, CountsTheAnnouncementsOfOtherRunsOnly) {
   NextStatus();  // after its own
   EXPECT_EQ(node_.counters().rejected, 0);

@@ -44,6 +44,8 @@ TEST(MessageDecoder, HandsOutEveryTypeWithAndWithoutATagBehindIt) {
   ExpectDecoded<weights_t>(decoder);
   ExpectDecoded<actor_status_t>(decoder);
   ExpectDecoded<learner_status_t>(decoder);
+  ExpectDecoded<scenario_t>(decoder);
+  ExpectDecoded<flight_t>(decoder);
 }
 
 TEST(MessageDecoder, TellsForeignMessagesFromDamagedOnes) {

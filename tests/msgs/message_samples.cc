@@ -141,6 +141,29 @@ learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, i
   return message;
 }
 
+scenario_t ScenarioOf(RandomStream& stream, int sensors) {
+  auto message = Identified<scenario_t>(stream);
+  FillAll(stream, message.first_sensor, message.total_sensors, message.columns, message.rows, message.cell_m,
+          message.start_column, message.start_row, message.stop_column, message.stop_row, message.slots,
+          message.slot_s, message.coverage_radius_m, message.initial_energy_j, message.maximum_aoi);
+  message.sensor_count = sensors;
+  for (auto* values : {&message.x_m, &message.y_m, &message.weight}) {
+    Fill(stream, *values, sensors);
+  }
+  return message;
+}
+
+flight_t FlightOf(RandomStream& stream, int sensors, int policy_length) {
+  auto message = Identified<flight_t>(stream);
+  FillAll(stream, message.flight, message.slot, message.slots, message.column, message.row,
+          message.time_margin, message.energy_margin_j, message.remaining_energy_j, message.move,
+          message.scheduled, message.reward, message.total_aoi, message.outcome);
+  message.policy = RandomText(stream, policy_length);
+  message.sensor_count = sensors;
+  Fill(stream, message.aoi, sensors);
+  return message;
+}
+
 void Randomise(RandomStream& stream, orders_t& message) {
   message = OrdersOf(stream, Below(stream, kMaximumOrdersPerMessage + 1));
 }
@@ -158,6 +181,12 @@ void Randomise(RandomStream& stream, actor_status_t& message) {
 }
 void Randomise(RandomStream& stream, learner_status_t& message) {
   message = LearnerStatusOf(stream, Below(stream, 241), Below(stream, 241));
+}
+void Randomise(RandomStream& stream, scenario_t& message) {
+  message = ScenarioOf(stream, Below(stream, kMaximumSensorsPerScenario + 1));
+}
+void Randomise(RandomStream& stream, flight_t& message) {
+  message = FlightOf(stream, Below(stream, kMaximumSensors + 1), Below(stream, 241));
 }
 
 }  // namespace fresco

@@ -16,6 +16,8 @@ void Randomise(RandomStream& stream, run_t& message);
 void Randomise(RandomStream& stream, transitions_t& message);
 void Randomise(RandomStream& stream, actor_status_t& message);
 void Randomise(RandomStream& stream, learner_status_t& message);
+void Randomise(RandomStream& stream, scenario_t& message);
+void Randomise(RandomStream& stream, flight_t& message);
 
 template <class Message>
 Message RandomMessage(RandomStream& stream) {
@@ -31,6 +33,8 @@ run_t RunOf(RandomStream& stream, int part_bytes);
 transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors);
 actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int host_length);
 learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length);
+scenario_t ScenarioOf(RandomStream& stream, int sensors);
+flight_t FlightOf(RandomStream& stream, int sensors, int policy_length);
 
 template <class Message>
 std::vector<std::byte> Encoded(const Message& message) {

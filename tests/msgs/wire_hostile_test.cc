@@ -54,8 +54,8 @@ class HostileWire : public testing::Test {
     return Encoded(RandomMessage<Message>(stream));
   }
 };
-using MessageTypes =
-    testing::Types<run_t, orders_t, transitions_t, weights_t, actor_status_t, learner_status_t>;
+using MessageTypes = testing::Types<run_t, orders_t, transitions_t, weights_t, actor_status_t,
+                                    learner_status_t, scenario_t, flight_t>;
 TYPED_TEST_SUITE(HostileWire, MessageTypes);
 
 TYPED_TEST(HostileWire, RejectsEveryTruncation) {
@@ -137,7 +137,8 @@ TYPED_TEST(HostileWire, RejectsEveryOtherType) {
   const std::vector<std::vector<std::byte>> all = {
       Encoded(RandomMessage<run_t>(stream)),          Encoded(RandomMessage<orders_t>(stream)),
       Encoded(RandomMessage<transitions_t>(stream)),  Encoded(RandomMessage<weights_t>(stream)),
-      Encoded(RandomMessage<actor_status_t>(stream)), Encoded(RandomMessage<learner_status_t>(stream))};
+      Encoded(RandomMessage<actor_status_t>(stream)), Encoded(RandomMessage<learner_status_t>(stream)),
+      Encoded(RandomMessage<scenario_t>(stream)),     Encoded(RandomMessage<flight_t>(stream))};
   int decoded = 0;
   for (const std::vector<std::byte>& bytes : all) {
     decoded += Decodes<TypeParam>(bytes);
@@ -165,6 +166,7 @@ TEST(HostileString, IsRejectedWhereItsLengthIsAbsurd) {
   RandomStream stream = TestStream(6);
   ExpectStringsOfAbsurdLengthRejected(ActorStatusOf(stream, 3, 3, 0), &actor_status_t::host);
   ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
+  ExpectStringsOfAbsurdLengthRejected(FlightOf(stream, 4, 0), &flight_t::policy);
 }
 
 template <class Message>
@@ -186,6 +188,7 @@ TEST(HostileString, HasOneNulAtItsEnd) {
   RandomStream stream = TestStream(8);
   ExpectOneNulAtTheEndOf(ActorStatusOf(stream, 2, 1, 0), &actor_status_t::host);
   ExpectOneNulAtTheEndOf(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
+  ExpectOneNulAtTheEndOf(FlightOf(stream, 3, 0), &flight_t::policy);
 }
 
 TEST(HostileString, IsRefusedWhereItsMessageIsTooLargeToBeEncodedAgain) {

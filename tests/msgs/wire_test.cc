@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// The largest orders_t, run_t, weights_t, actor_status_t and learner_status_t that the codecs allow.
+/// The largest of every type that the codecs allow, but for transitions_t, which is filled to the frame.
 orders_t FullOrders() {
   orders_t message{};
   message.order_count = kMaximumOrdersPerMessage;
@@ -53,6 +53,16 @@ learner_status_t FullLearnerStatus() {
   return message;
 }
 
+scenario_t FullScenario() {
+  RandomStream stream(1, RandomPurpose::kTest, 78, 0);
+  return ScenarioOf(stream, kMaximumSensorsPerScenario);
+}
+
+flight_t FullFlight() {
+  RandomStream stream(1, RandomPurpose::kTest, 79, 0);
+  return FlightOf(stream, kMaximumSensors, kMaximumTextBytes);
+}
+
 template <class Message>
 void ExpectRoundTripAndRefusals(const Message& message) {
   const Bytes bytes = Encoded(message);
@@ -81,6 +91,8 @@ TEST(Wire, CarriesTheLargestMessagesAndRefusesEveryTruncationAndFlippedBit) {
   ExpectRoundTripAndRefusals(FullWeights());
   ExpectRoundTripAndRefusals(FullActorStatus());
   ExpectRoundTripAndRefusals(FullLearnerStatus());
+  ExpectRoundTripAndRefusals(FullScenario());
+  ExpectRoundTripAndRefusals(FullFlight());
 }
 
 /// Replaces the CRC by the right one: what a hostile sender would do.

@@ -1,0 +1,49 @@
+// Event logs for tests: written and read by LCM's own library, or byte by byte as its format is published.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bus/lcm_event.h"
+
+namespace fresco {
+
+/// An event that owns its content.
+struct LogEvent {
+  int64_t utime = 0;
+  std::string channel = {};
+  std::string message = {};
+  bool operator==(const LogEvent&) const = default;
+};
+
+LogEvent Owned(const LcmEvent& event);
+LcmEvent EventOf(const LogEvent& event);
+
+/// Events of many sizes and channels, a millisecond apart; some contain the sync word, one is empty.
+std::vector<LogEvent> SampleEvents(int count, int64_t first_utime = 1'700'000'000'000'000);
+
+/// The log's bytes as the published format has them.
+std::string LogBytes(const std::vector<LogEvent>& events);
+
+void WriteWithLcm(const std::filesystem::path& path, const std::vector<LogEvent>& events);
+/// Expects consecutive numbers from 0 on.
+std::vector<LogEvent> ReadWithLcm(const std::filesystem::path& path);
+
+void WriteBytes(const std::filesystem::path& path, const std::string& bytes);
+
+/// A folder of the running test's own; empty at first, gone in the end.
+class LogFolder {
+ public:
+  LogFolder();
+  ~LogFolder();
+  LogFolder(const LogFolder&) = delete;
+  LogFolder& operator=(const LogFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace fresco

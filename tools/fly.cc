@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "bus/command_line.h"
+#include "core/attentive_clock.h"
+#include "core/clock.h"
+#include "core/identifier.h"
+#include "core/stop_signal.h"
+#include "msgs/channels.h"
+#include "msgs/scenario_codec.h"
+#include "tools/flight_messages.h"
+#include "tools/flown_policy.h"
+#include "tools/live_line.h"
+#include "tools/subcommands.h"
+
+namespace fresco {
+namespace {
+
+struct FlyOptions {
+  PolicyChoice choice;
+  double slots_per_s = 5;
+  bool loop = false;
+  std::string lcm_url;
+  BusOptions bus;
+};
+
+/// Publishes a flight slot by slot. Its clock stands still while the process is stopped, so that it goes on
+/// at the same pace afterwards.
+class FlightShow {
+ public:
+  FlightShow(const FlownPolicy& flown, const FlyOptions& options, const std::string& url)
+      : flown_(flown),
+        messages_(FlightMessages(flown.world, flown.flight, options.choice.policy)),
+        field_(ScenarioMessages(flown.world.scenario())),
+        bus_(OpenBus(url, options.bus)),
+        channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
+        period_us_(1e6 / options.slots_per_s) {}
+
+  /// Shows the flight once; false where the program was asked to stop before its end.
+  bool Show() {
+    const int64_t begin_us = clock_.Look(MonotonicMicroseconds());
+    SendField();
+    for (size_t slot = 0; slot < messages_.size(); ++slot) {
+      if (!WaitUntil(begin_us + static_cast<int64_t>(static_cast<double>(slot) * period_us_))) {
+        return false;
+      }
+      Send(channels_.flight, messages_[slot]);
+      line_.Show(Describe(messages_[slot]));
+    }
+    for (flight_t& message : messages_) {
+      ++message.flight;
+    }
+    return WaitUntil(clock_.now_us() + std::max(kLastSlotUs, static_cast<int64_t>(period_us_)));
+  }
+
+ private:
+  static constexpr int64_t kLastSlotUs = 1'000'000;  // is to be seen before the next flight begins
+  static constexpr int64_t kFieldPeriodUs = 1'000'000;
+  static constexpr int64_t kLongestPollUs = 20'000;
+
+  /// False where the program was asked to stop.
+  bool WaitUntil(int64_t due_us) {
+    while (!StopSignal::Requested()) {
+      const int64_t now_us = clock_.Look(MonotonicMicroseconds());
+      if (now_us >= due_us) {
+        return true;
+      }
+      if (now_us >= next_field_us_) {
+        SendField();
+      }
+      bus_->Poll(std::min(kLongestPollUs, due_us - now_us));
+    }
+    return false;
+  }
+
+  void SendField() {
+    next_field_us_ = clock_.now_us() + kFieldPeriodUs;
+    for (const scenario_t& message : field_) {
+      Send(channels_.scenario, message);
+    }
+  }
+
+  template <class Message>
+  void Send(const std::string& channel, Message message) {
+    Stamp(message, identity_, WallMicroseconds());
+    Encode(message, bytes_);
+    if (!bus_->Publish(channel, bytes_) && !failure_was_told_) {
+      failure_was_told_ = true;
+      spdlog::warn("{}: LCM could not send a message of {} bytes; is the network up?", channel,
+                   bytes_.size());
+    }
+  }
+
+  static std::string Describe(const flight_t& message) {
+    const auto sums = static_cast<double>(message.slot) * message.sensor_count;
+    return fmt::format(
+        "flight {} | slot {} of {} | over ({},{}) | mean AoI so far {:.3f} slots | {:.0f} J left | AoI {}",
+        message.flight + 1, message.slot, message.slots, message.column, message.row,
+        static_cast<double>(message.total_aoi) / sums, message.remaining_energy_j,
+        fmt::join(message.aoi, " "));
+  }
+
+  const FlownPolicy& flown_;
+  std::vector<flight_t> messages_;
+  std::vector<scenario_t> field_;
+  std::unique_ptr<Bus> bus_;
+  Channels channels_;
+  RunIdentity identity_{DrawIdentifier(), flown_.experiment.hash()};
+  double period_us_;
+  AttentiveClock clock_;
+  LiveLine line_{true};
+  std::vector<std::byte> bytes_;
+  int64_t next_field_us_ = 0;
+  bool failure_was_told_ = false;
+};
+
+/// A show without end is over when somebody ends it.
+int FlyOverBus(const FlyOptions& options) {
+  const FlownPolicy flown = FlyPolicy(options.choice);
+  if (StopSignal::Requested()) {
+    return 1;
+  }
+  const std::string url = options.lcm_url.empty() ? flown.experiment.run().lcm_url() : options.lcm_url;
+  FlightShow show(flown, options, url);
+  spdlog::info(
+      "{} on {}_FLIGHT, {} slots a second; watch it with: tools/fresco spy --open flight --lcm-url '{}'",
+      options.choice.policy, flown.experiment.run().channel_prefix(), options.slots_per_s, url);
+  bool whole = show.Show();
+  while (options.loop && whole) {
+    whole = show.Show();
+  }
+  fmt::print("{}\n", FlightSummary(flown.world, flown.flight, options.choice.policy));
+  return whole || options.loop ? 0 : 1;
+}
+
+}  // namespace
+
+void AddFly(CLI::App& app, Command& command) {
+  auto options = std::make_shared<FlyOptions>();
+  CLI::App* fly = app.add_subcommand("fly", "Fly one episode greedily over LCM, slot by slot, to be watched");
+  AddPolicyOptions(*fly, options->choice);
+  fly->add_option("--rate", options->slots_per_s, "Slots a second")
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 1000.0));
+  fly->add_flag("--loop", options->loop, "Fly it again and again, until Ctrl-C");
+  fly->add_option("--lcm-url", options->lcm_url, "Where it is flown; default: the experiment's run.lcm_url");
+  AddBusOptions(*fly, options->bus);
+  options->choice.limits.show_progress = true;
+  fly->callback([options, &command] { command = [options] { return FlyOverBus(*options); }; });
+}
+
+}  // namespace fresco

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/lcm_url.h"
+#include "core/error.h"
+#include "msgs/channels.h"
+#include "tools/installation.h"
+#include "tools/subcommands.h"
+
+namespace fresco {
+namespace {
+
+const std::vector<std::string> kWindows = {"flight", "learner", "actors"};
+
+struct SpyOptions {
+  std::string lcm_url = kDefaultLcmUrl;
+  std::string channel_prefix = kDefaultChannelPrefix;
+  std::vector<std::string> open;
+  bool print_table = false;
+};
+
+/// A jar of a Debian package or of LCM's own installation.
+std::string SystemJar(const std::string& name) {
+  for (const char* folder : {"/usr/share/java/", "/usr/local/share/java/"}) {
+    if (std::filesystem::exists(folder + name)) {
+      return folder + name;
+    }
+  }
+  throw UsageError("spy: expected /usr/share/java/" + name +
+                   ", found none; install it: apt-get install default-jre liblcm-java libjchart2d-java");
+}
+
+/// One class path for all: lcm-spy does not take a viewer of its table from another class loader than that of
+/// the messages.
+std::string ClassPath() {
+  return fmt::format("{}:{}:{}:{}", SystemJar("lcm.jar"), SystemJar("jchart2d.jar"),
+                     SharedFile("fresco_types.jar"), SharedFile("fresco_spy.jar"));
+}
+
+void RequireDisplay() {
+  const char* display = std::getenv("DISPLAY");
+  if (display == nullptr || *display == '\0') {
+    throw UsageError(
+        "spy: expected an X display in the environment variable DISPLAY, found none; run it on a desktop, "
+        "over "
+        "ssh -X, or under xvfb-run");
+  }
+}
+
+/// Java's LCM keeps the system's receive buffer whatever the URL says.
+void WarnOfSmallReceiveBuffer() {
+  constexpr int64_t kEnoughBytes = 1 << 20;  // all chunks of a network, each with the kernel's overhead
+  int64_t bytes = kEnoughBytes;
+  std::ifstream("/proc/sys/net/core/rmem_default") >> bytes;
+  if (bytes < kEnoughBytes) {
+    spdlog::warn(
+        "spy: Java receives with the system's buffer of {} bytes, so it may miss messages of a fast run; as "
+        "root: sysctl -w net.core.rmem_default=4194304",
+        bytes);
+  }
+}
+
+std::vector<std::string> JavaCommand(const SpyOptions& options) {
+  return {"java",
+          "-Djava.net.preferIPv4Stack=true",
+          "-Xmx512m",
+          "-cp",
+          ClassPath(),
+          "fresco.spy.Main",
+          NormalizeLcmUrl(options.lcm_url),
+          options.channel_prefix,
+          fmt::format("{}", fmt::join(options.open, ",")),
+          options.print_table ? "true" : "false"};
+}
+
+/// Becomes Java's process, so that signals and the exit status are lcm-spy's own.
+int Spy(SpyOptions options) {
+  ChannelsWithPrefix(options.channel_prefix);
+  RequireDisplay();
+  if (options.open == std::vector<std::string>{"all"}) {
+    options.open = kWindows;
+  }
+  const std::vector<std::string> command = JavaCommand(options);
+  WarnOfSmallReceiveBuffer();
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) {
+    arguments.push_back(const_cast<char*>(argument.c_str()));
+  }
+  arguments.push_back(nullptr);
+  execvp(arguments[0], arguments.data());
+  throw UsageError(fmt::format("spy: java can't be run: {}; install it: apt-get install default-jre",
+                               std::strerror(errno)));
+}
+
+}  // namespace
+
+void AddSpy(CLI::App& app, Command& command) {
+  auto options = std::make_shared<SpyOptions>();
+  CLI::App* spy = app.add_subcommand("spy", "Watch a run's messages, flights and curves in lcm-spy");
+  spy->add_option("--lcm-url", options->lcm_url, "Where the run is")->capture_default_str();
+  spy->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
+      ->capture_default_str();
+  spy->add_option("--open", options->open, "Open these windows at once: flight,learner,actors, or all")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"flight", "learner", "actors", "all"}));
+  spy->add_flag("--print-table", options->print_table,
+                "Also print the table once a second: channel, type, messages received, undecodable");
+  spy->callback([options, &command] { command = [options] { return Spy(*options); }; });
+}
+
+}  // namespace fresco

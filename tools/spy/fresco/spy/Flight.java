@@ -1,0 +1,55 @@
+package fresco.spy;
+
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.List;
+
+/** A flight as far as it is known: an episode of a run, or what `fresco fly` shows. On the event thread. */
+final class Flight {
+  static final int FLYING = 0;
+  private static final String[] OUTCOMES = {"flying", "arrived", "out of time", "out of energy"};
+
+  final long runId;
+  final long number; // the order's index, or that of fly's flight
+  final String source; // who flew it, for people
+  final boolean live; // its slots arrive as they are flown
+  final List<Step> steps = new ArrayList<>();
+  int outcome = FLYING;
+  String kind; // what it is, for people
+
+  Flight(long runId, long number, String kind, String source, boolean live) {
+    this.runId = runId;
+    this.number = number;
+    this.kind = kind;
+    this.source = source;
+    this.live = live;
+  }
+
+  int sensors() { return steps.isEmpty() ? 0 : steps.get(0).aoi().length; }
+
+  String outcomeName() { return outcome >= 0 && outcome < OUTCOMES.length ? OUTCOMES[outcome] : "?"; }
+
+  /** The AoI of all sensors in the first `count` steps. */
+  long totalAoi(int count) { return steps.stream().limit(count).mapToLong(Step::totalAoi).sum(); }
+
+  /** The weighted mean AoI of the first `count` steps, slots; without its field all sensors weigh alike. */
+  double averageAoi(int count, Field field) {
+    double[] theta = field == null ? new double[sensors()] : field.theta();
+    if (field == null) {
+      Arrays.fill(theta, 1.0 / theta.length);
+    }
+    double sum = 0;
+    for (Step step : steps.subList(0, count)) {
+      for (int n = 0; n < theta.length; ++n) {
+        sum += theta[n] * step.aoi()[n];
+      }
+    }
+    return sum / count;
+  }
+
+  /** The largest AoI of scales and axes: what the flight comes to, rounded up, so that it seldom changes. */
+  int scale() {
+    int oldest = steps.stream().mapToInt(Step::oldest).max().orElse(1);
+    return Math.max(10, (oldest + 9) / 10 * 10);
+  }
+}

@@ -1,0 +1,106 @@
+package fresco.spy;
+
+import java.io.ByteArrayOutputStream;
+import java.io.DataInput;
+import java.io.DataOutputStream;
+import java.io.IOException;
+import java.nio.ByteBuffer;
+import java.util.zip.CRC32C;
+import lcm.lcm.LCMDataInputStream;
+import lcm.lcm.LCMEncodable;
+
+/**
+ * Decodes one of Fresco's messages, guarded as msgs/wire.h does it: LCM's decoders allocate whatever a count
+ * or the length of a text says, so both are looked at before. Immutable; any thread.
+ */
+final class MessageType<M extends LCMEncodable> {
+  /** LCM's decoder of a type: its constructor from a stream. */
+  interface Decoder<M> {
+    M decode(DataInput stream) throws IOException;
+  }
+
+  private static final int LARGEST_MESSAGE_BYTES = 1350;
+  private static final int CRC_BYTES = 4;
+  private static final int TAG_BYTES = 32; // behind the CRC where the run has a key file
+  private static final int FIRST_COUNT = 8 + 3 * 8; // behind fingerprint, utime, run_id, config_hash
+  private static final int EMPTY_TEXT_BYTES = 5; // a length, one NUL
+
+  private final Decoder<M> decoder;
+  private final int texts;
+  private final int firstText;
+  private final int[] countMaxima;
+
+  /**
+   * @param empty a message with empty texts and arrays
+   * @param texts how many texts it has; they stand behind the fields of fixed size
+   * @param countMaxima the largest allowed value of each count, in the order of the fields
+   */
+  MessageType(Decoder<M> decoder, M empty, int texts, int... countMaxima) {
+    this.decoder = decoder;
+    this.texts = texts;
+    this.firstText = encodedBytes(empty) - texts * EMPTY_TEXT_BYTES;
+    this.countMaxima = countMaxima;
+  }
+
+  private static int encodedBytes(LCMEncodable message) {
+    try {
+      ByteArrayOutputStream bytes = new ByteArrayOutputStream();
+      message.encode(new DataOutputStream(bytes));
+      return bytes.size();
+    } catch (IOException error) {
+      throw new IllegalStateException(error);
+    }
+  }
+
+  /**
+   * The message, or null where it is damaged, of another type, or no sender of Fresco's would have made it.
+   */
+  M decode(LCMDataInputStream stream) {
+    try {
+      byte[] bytes = new byte[Math.min(stream.available(), LARGEST_MESSAGE_BYTES + 1)];
+      stream.readFully(bytes);
+      ByteBuffer message = ByteBuffer.wrap(bytes);
+      return isSound(message) ? decoder.decode(new LCMDataInputStream(bytes)) : null;
+    } catch (IOException | RuntimeException error) {
+      return null;
+    }
+  }
+
+  private boolean isSound(ByteBuffer message) {
+    int bytes = message.capacity();
+    return bytes <= LARGEST_MESSAGE_BYTES
+        && (crcHolds(message, bytes - CRC_BYTES) || crcHolds(message, bytes - CRC_BYTES - TAG_BYTES))
+        && countsAreAllowed(message) && textsAreAllowed(message);
+  }
+
+  private static boolean crcHolds(ByteBuffer message, int encodedBytes) {
+    if (encodedBytes < FIRST_COUNT) {
+      return false;
+    }
+    CRC32C crc = new CRC32C();
+    crc.update(message.array(), 0, encodedBytes);
+    return (int) crc.getValue() == message.getInt(encodedBytes);
+  }
+
+  private boolean countsAreAllowed(ByteBuffer message) {
+    for (int i = 0; i < countMaxima.length; ++i) {
+      int count = message.getInt(FIRST_COUNT + 4 * i);
+      if (count < 0 || count > countMaxima[i]) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  private boolean textsAreAllowed(ByteBuffer message) {
+    int offset = firstText;
+    for (int i = 0; i < texts; ++i) {
+      int length = message.getInt(offset);
+      if (length < 1 || length > message.capacity() - offset) {
+        return false;
+      }
+      offset += 4 + length;
+    }
+    return true;
+  }
+}

@@ -1,0 +1,37 @@
+package fresco.spy;
+
+import fresco.order_t;
+import fresco.orders_t;
+import java.util.Map;
+
+/** What the orders heard of last say of their episodes. On the event thread. */
+final class Orders {
+  private static final int REMEMBERED = 1024;
+  private static final byte EVALUATE = 1;
+
+  private record Key(long runId, long index) {}
+
+  private final Map<Key, order_t> orders = new RecentMap<>(REMEMBERED);
+
+  void add(orders_t message) {
+    for (order_t order : message.orders) {
+      orders.put(new Key(message.run_id, order.index), order);
+    }
+  }
+
+  boolean isEvaluation(long runId, long index) {
+    order_t order = orders.get(new Key(runId, index));
+    return order != null && order.kind == EVALUATE;
+  }
+
+  /** "training episode, epsilon 0.12, network 56". */
+  String describe(long runId, long index) {
+    order_t order = orders.get(new Key(runId, index));
+    if (order == null) {
+      return "episode";
+    }
+    return order.kind == EVALUATE
+        ? "greedy evaluation of network " + order.current_version
+        : String.format("training, epsilon %.3f, network %d", order.epsilon, order.current_version);
+  }
+}

@@ -1,0 +1,42 @@
+package fresco.spy;
+
+import java.awt.Color;
+import java.awt.Graphics2D;
+import java.awt.Shape;
+import java.awt.geom.AffineTransform;
+import java.util.Locale;
+
+/** Texts on drawings, and numbers as texts. */
+final class Text {
+  private Text() {}
+
+  static void centred(Graphics2D g, String text, double x, double baseline) {
+    g.drawString(text, (float) (x - g.getFontMetrics().stringWidth(text) / 2.0), (float) baseline);
+  }
+
+  static void right(Graphics2D g, String text, double x, double baseline) {
+    g.drawString(text, (float) (x - g.getFontMetrics().stringWidth(text)), (float) baseline);
+  }
+
+  /** With a white edge, to be read on anything. */
+  static void haloed(Graphics2D g, String text, double x, double baseline, Color colour) {
+    Shape outline = g.getFont().createGlyphVector(g.getFontRenderContext(), text).getOutline();
+    Shape placed = AffineTransform.getTranslateInstance(x, baseline).createTransformedShape(outline);
+    g.setColor(Palette.withAlpha(Color.WHITE, 220));
+    g.setStroke(Palette.stroke(3.5));
+    g.draw(placed);
+    g.setColor(colour);
+    g.fill(placed);
+  }
+
+  /** Without a fraction where it has none. */
+  static String number(double value) {
+    return value == Math.rint(value) ? String.format(Locale.ROOT, "%.0f", value)
+                                     : String.format(Locale.ROOT, "%.4g", value);
+  }
+
+  /** "-" where it is not known. */
+  static String orDash(String format, double value) {
+    return Double.isFinite(value) ? String.format(Locale.ROOT, format, value) : "-";
+  }
+}
