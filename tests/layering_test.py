@@ -55,8 +55,9 @@ def breaches():
 def forgotten_tests():
     """Tests that no program is built from pass for ever."""
     for path in sorted((ROOT / "tests").rglob("*_test.cc")):
-        if path.name not in (path.parent / "CMakeLists.txt").read_text():
-            yield f"{path.relative_to(ROOT)}: not in the CMakeLists.txt beside it"
+        cmake = next(folder / "CMakeLists.txt" for folder in path.parents if (folder / "CMakeLists.txt").exists())
+        if str(path.relative_to(cmake.parent)) not in cmake.read_text():
+            yield f"{path.relative_to(ROOT)}: not in {cmake.relative_to(ROOT)}"
 
 
 def main():

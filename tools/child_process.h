@@ -29,8 +29,8 @@ class ChildProcess {
 
   /// SIGTERM, then WaitForEnd.
   int End(int64_t patience_us);
-  /// SIGKILL where it is still there after `patience_us`. Returns its exit status. For a process that was told
-  /// to end before: a second SIGTERM would kill it.
+  /// SIGKILL where it is still there after `patience_us`. Returns its exit status. For a process that was
+  /// told to end before: a second SIGTERM would kill it.
   int WaitForEnd(int64_t patience_us);
   void Signal(int signal_number);
 

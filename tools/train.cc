@@ -10,7 +10,7 @@
 #include "tools/installation.h"
 #include "tools/live_line.h"
 #include "tools/new_run_folder.h"
-#include "tools/run_report.h"
+#include "tools/report/run_report.h"
 #include "tools/subcommands.h"
 #include "tools/train_display.h"
 #include "tools/training_run.h"

@@ -15,8 +15,8 @@
 #include "msgs/experiment.h"
 #include "msgs/wire.h"
 #include "tools/child_process.h"
+#include "tools/log/run_recorder.h"
 #include "tools/restart_policy.h"
-#include "tools/run_recorder.h"
 
 namespace fresco {
 

@@ -16,7 +16,7 @@
 #include "bus/event_log_writer.h"
 #include "bus/merged_event_logs.h"
 #include "tests/msgs/message_samples.h"
-#include "tools/log_summary.h"
+#include "tools/log/log_summary.h"
 
 namespace fresco {
 namespace {

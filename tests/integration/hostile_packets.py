@@ -122,11 +122,11 @@ def hostile_packets(recorded, run_id, seed=1):
 def _send(port, packets, packets_per_s, stop, sent):
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
-        sender.connect((GROUP, port))
+        # Not connected: where multicast is routed over the loopback device, nothing of a connected socket arrives.
         begin = time.monotonic()
         for count, (_, datagram) in enumerate(itertools.cycle(packets), 1):
             try:
-                sender.send(datagram)
+                sender.sendto(datagram, (GROUP, port))
             except OSError:  # no room at the moment
                 pass
             if count % 64 == 0:

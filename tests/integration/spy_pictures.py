@@ -1,6 +1,7 @@
 """Makes the pictures of docs/lcm.md: FRESCO_BIN=build/release/bin python3 tests/integration/spy_pictures.py"""
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -46,7 +47,7 @@ def picture_run(display, folder):
     with spy_display.Spy(display, PORT, "--open", "learner"):
         display.window("table")
         run = start("train", "--out", folder / "run", log=log)
-        wait_until(lambda: "% over the optimum" in log.read_text(), "the gap to the optimum", 300)
+        wait_until(lambda: re.search(r"\(\d+\.\d+ % over the optimum", log.read_text()), "the gap to the optimum", 300)
         time.sleep(10)
         take(display, "learner")
     for name, seconds in (("actors", 20), ("table", 8)):

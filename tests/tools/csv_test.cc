@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "core/atomic_file.h"
-#include "tests/tools/picture_files.h"
+#include "tests/tools/plots/picture_files.h"
 
 namespace fresco {
 namespace {

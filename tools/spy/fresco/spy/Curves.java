@@ -118,8 +118,9 @@ final class Curves extends JPanel {
       setRange(chart.getAxisY(), 0, 1, Y_TICKS);
       return;
     }
-    double from = low > 0 && low < 0.7 * high ? 0 : low;
-    double step = FieldPainter.niceStep(Math.max(high - from, 1e-9 + 1e-3 * Math.abs(high)), Y_TICKS);
+    boolean nearZero = low > 0 && (low < 0.7 * high || low == high);
+    double from = nearZero ? 0 : low;
+    double step = FieldPainter.niceStep(Math.max(high - from, 1e-9 + 0.01 * Math.abs(high)), Y_TICKS);
     from = step * Math.floor(from / step);
     setRange(chart.getAxisY(), from, Math.max(step * Math.ceil(high / step), from + step), Y_TICKS);
   }

@@ -1,0 +1,24 @@
+// Everything that a study writes once its runs are there: tables (CSV), pictures, the report. Used by one
+// thread.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/figures/paper_study.h"
+
+namespace fresco {
+
+struct WrittenFigures {
+  double mean_gap_percent = 0;  ///< of DQN to the optimum, over all rows of the two figures of the paper
+  std::string picture_error;    ///< why pictures are missing; empty: none is
+};
+
+/// Writes runs.csv, the figures `radius`, `sensors`, `energy`, `energy_dear_flight`, `learning_curve` and
+/// `flight_<policy>`, each as CSV, SVG and PNG, and report.html into `folder`; the runs stand in
+/// folder/runs. Where pictures can't be drawn all the numbers are written. Throws what file access throws.
+WrittenFigures WriteStudyFigures(const std::filesystem::path& folder, const Experiment& base,
+                                 const PaperStudy& study, const std::vector<StudyResult>& results);
+
+}  // namespace fresco

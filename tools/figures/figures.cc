@@ -1,0 +1,97 @@
+// `fresco figures`: the paper's figures, with the exact optimum beside every point, and more.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "bus/command_line.h"
+#include "core/error.h"
+#include "msgs/settings.h"
+#include "tools/figures/figure_writer.h"
+#include "tools/installation.h"
+#include "tools/subcommands.h"
+
+namespace fresco {
+namespace {
+
+using Path = std::filesystem::path;
+
+struct FiguresOptions {
+  std::string out;
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<int> deployments;
+  int parallel = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::string lcm_url;
+  BusOptions bus;
+  bool quick = false;
+};
+
+StudyScope ScopeOf(const FiguresOptions& options) {
+  StudyScope scope;
+  if (options.quick) {
+    scope.radii_cells = {2, 4};
+    scope.sensors_at_radii = 2;
+    scope.sensor_counts = {1, 2};
+    scope.deployments = 2;
+    scope.budget_shares = {0, 1};
+  }
+  scope.deployments = options.deployments.value_or(scope.deployments);
+  return scope;
+}
+
+/// One actor a run (it outruns the learner by far), and the search for the optimum to its end.
+Experiment BaseExperiment(const FiguresOptions& options) {
+  Settings settings = ParseSettings(options.settings);
+  settings.emplace_back("run.actors", "1");
+  settings.emplace_back("run.optimum_limit_s", "3600");
+  if (!options.lcm_url.empty()) {
+    settings.emplace_back("run.lcm_url", options.lcm_url);
+  }
+  const std::string config = options.config.empty()
+                                 ? ConfigPath(options.quick ? "ci.textproto" : "quick.textproto")
+                                 : options.config;
+  return Experiment::Load(config, settings);
+}
+
+int WriteFigures(const FiguresOptions& options) {
+  const Experiment base = BaseExperiment(options);
+  const PaperStudy study = MakePaperStudy(base, ScopeOf(options));
+  const Path folder(options.out);
+  const std::vector<StudyResult> results =
+      RunStudy(study.jobs, {folder / "runs", options.parallel, options.bus});
+  const WrittenFigures written = WriteStudyFigures(folder, base, study, results);
+  fmt::print("mean gap of DQN to the optimum over both figures' points: {:.2f} %\n",
+             written.mean_gap_percent);
+  if (!written.picture_error.empty()) {
+    throw Failure("the numbers are in " + folder.string() +
+                  ", but not every picture: " + written.picture_error);
+  }
+  fmt::print("figures, tables and report.html are in {}\n", folder.string());
+  return 0;
+}
+
+}  // namespace
+
+void AddFigures(CLI::App& app, Command& command) {
+  auto options = std::make_shared<FiguresOptions>();
+  CLI::App* figures = app.add_subcommand(
+      "figures", "Reproduce the paper's figures with the exact optimum beside every point: CSV, SVG, PNG");
+  figures->add_option("--out", options->out, "Folder for figures and runs; goes on where it was stopped")
+      ->required();
+  figures->add_option("--config", options->config,
+                      "Field, agent and schedule; default: quick.textproto (--quick: ci.textproto)");
+  figures->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
+  figures->add_option("--deployments", options->deployments, "Random deployments a point; default: 3")
+      ->check(CLI::Range(1, 1000));
+  figures->add_option("--parallel", options->parallel, "Runs side by side; default: as many as processors")
+      ->check(CLI::Range(1, 256));
+  figures->add_option("--lcm-url", options->lcm_url, "Where learners and actors meet");
+  AddBusOptions(*figures, options->bus);
+  figures->add_flag("--quick", options->quick, "A small version: few points, short training");
+  figures->callback([options, &command] { command = [options] { return WriteFigures(*options); }; });
+}
+
+}  // namespace fresco

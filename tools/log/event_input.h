@@ -1,0 +1,33 @@
+// What every subcommand of `fresco log` that reads does: its options, and the pass through the events.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bus/lcm_event.h"
+#include "bus/merged_event_logs.h"
+#include "tools/log/event_selection.h"
+
+namespace fresco {
+
+struct EventInputOptions {
+  std::vector<std::string> sources;  ///< as OpenEvents has them
+  double seconds = 0;                ///< of listening, where the source is a URL
+  SelectionOptions selection;
+};
+
+/// Adds LOG..., --seconds, --channel, --drop, --start, --stop and --run; `options` must outlive the parsing.
+void AddEventInput(CLI::App& app, EventInputOptions& options);
+
+/// Calls `handle` for every event that is wanted, in order, and shows on standard error how far it is; says
+/// there at the end where a log was damaged or cut. Throws UsageError where a source can't be opened, Failure
+/// where the program is interrupted while it reads logs.
+MergedEventLogs::Totals ForEachEvent(const EventInputOptions& options,
+                                     const std::function<void(const LcmEvent& event)>& handle);
+
+/// Says on standard error what of the logs is no event.
+void WarnOfDamage(const MergedEventLogs::Totals& totals);
+
+}  // namespace fresco

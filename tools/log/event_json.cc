@@ -1,0 +1,81 @@
+#include "tools/log/event_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+#include <vector>
+
+#include "msgs/message_fields.h"
+#include "msgs/message_peek.h"
+#include "tools/log/message_cells.h"
+
+namespace fresco {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Message>
+Json JsonOf(const Message& message);
+
+Json JsonOfCell(const CsvCell& cell) {
+  return std::visit([](const auto& value) { return Json(value); }, cell);
+}
+
+template <class Value>
+Json JsonOfField(const char* name, const Value& value) {
+  if constexpr (requires { CellOf(name, value); }) {
+    return JsonOfCell(CellOf(name, value));
+  } else if constexpr (requires { value.begin(); }) {
+    Json list = Json::array();
+    for (const auto& element : value) {
+      list.push_back(JsonOfField(name, element));
+    }
+    return list;
+  } else {
+    return JsonOf(value);
+  }
+}
+
+template <class Message>
+Json JsonOf(const Message& message) {
+  Json json = Json::object();
+  ForEachField(message, [&json](const char* name, const auto& value) {
+    if constexpr (std::is_same_v<decltype(value), const std::vector<uint8_t>&>) {  // a piece of text
+      json[name] = std::string(value.begin(), value.end());
+    } else {
+      json[name] = JsonOfField(name, value);
+    }
+  });
+  return json;
+}
+
+std::string FirstBytes(std::span<const std::byte> bytes) {
+  std::string digits;
+  for (const std::byte byte : bytes.first(std::min<size_t>(bytes.size(), 8))) {
+    digits += fmt::format("{:02x}", std::to_integer<int>(byte));
+  }
+  return digits;
+}
+
+}  // namespace
+
+std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
+  Json json = {{"utime", event.utime}, {"channel", event.channel}, {"type", nullptr}};
+  const auto result = decoder.Decode(event.message, [&json](const auto& message) {
+    json["type"] = message.getTypeName();
+    json["message"] = JsonOf(message);
+  });
+  if (result != MessageDecoder::Result::kDecoded) {
+    if (result == MessageDecoder::Result::kDamaged) {
+      json["type"] = PeekType(event.message);
+      json["damaged"] = true;
+    }
+    json["bytes"] = event.message.size();
+    json["fingerprint"] = FirstBytes(event.message);
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // texts come from the network
+}
+
+}  // namespace fresco

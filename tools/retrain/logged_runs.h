@@ -1,0 +1,29 @@
+// The runs that LCM event logs hold, found by what their learners announce and their messages carry.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msgs/wire.h"
+#include "tools/retrain/log_messages.h"
+
+namespace fresco {
+
+struct LoggedRun {
+  RunIdentity identity;
+  int64_t transitions_messages = 0;
+  std::optional<int64_t> arithmetic_fingerprint = {};  ///< of the learner; none: it was not recorded
+  std::optional<std::string> config_text = {};         ///< none: not every part of it was recorded
+};
+
+/// Those of which transitions or the configuration were recorded, in the order in which they appear. Throws
+/// UsageError where a log can't be read.
+std::vector<LoggedRun> FindLoggedRuns(const LogSource& source);
+
+/// The one with this id, as people write it (16 hexadecimal digits); with an empty text the only one. Throws
+/// UsageError that lists the runs where that does not name one.
+LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id);
+
+}  // namespace fresco

@@ -1,0 +1,104 @@
+#include "tools/retrain/retrain_run.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/folder_lock.h"
+#include "core/identifier.h"
+#include "core/stop_signal.h"
+#include "learner/optimum_search.h"
+#include "learner/summary.h"
+#include "tools/live_line.h"
+
+namespace fresco {
+namespace {
+
+double SecondsSince(int64_t begin_us) {
+  return 1e-6 * static_cast<double>(MonotonicMicroseconds() - begin_us);
+}
+
+std::string ProgressText(const Trainer& trainer, int64_t episodes, double wall_s) {
+  const TrainerProgress& progress = trainer.progress();
+  const auto& best = trainer.best();
+  return fmt::format("episode {}/{}  updates {}  best average AoI {}  {:.0f} updates/s", progress.episodes,
+                     episodes, progress.updates,
+                     best ? fmt::format("{:.2f}", best->evaluation.figures.average_aoi) : "-",
+                     static_cast<double>(progress.updates) / wall_s);
+}
+
+void WaitForEnd(OptimumSearch& optimum, LiveLine& line) {
+  constexpr int64_t kReportUs = 200'000;
+  while (!StopSignal::Requested() && !optimum.WaitForEnd(kReportUs)) {
+    line.Show(fmt::format("trained; the search for the exact optimum goes on for {:.0f} s at most",
+                          optimum.seconds_left()));
+  }
+}
+
+}  // namespace
+
+RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Experiment& recorded,
+                       const Experiment& chosen, Retraining::Use use, bool strict)
+    : experiment_(chosen),
+      world_(chosen.scenario()),
+      strict_(strict),
+      report_{source.paths, run, use},
+      episodes_(source, run.identity, world_, recorded.mask_options()) {
+  report_.missing = episodes_.Missing();
+  report_.totals = episodes_.totals();
+  report_.refused = episodes_.refused();
+  if (strict && !report_.missing.empty()) {
+    throw Failure(fmt::format(
+        "--strict: the log misses the episodes of orders {}; without --strict they are flown again",
+        RangesText(report_.missing)));
+  }
+}
+
+std::string RetrainRun::Train(const std::filesystem::path& directory) {
+  std::optional<RunFolder> folder;
+  const int64_t begin_us = MonotonicMicroseconds();
+  // Before the folder: a log that is of no use leaves nothing behind.
+  Retraining retraining(experiment_, world_, episodes_, report_.use, strict_,
+                        [&](const Trainer& trainer, const Evaluation& evaluation) {
+                          folder->AddMetrics(evaluation, trainer.progress(), SecondsSince(begin_us));
+                          if (trainer.best()->evaluation.version == evaluation.version) {
+                            folder->WriteBest(*trainer.best());
+                          }
+                        });
+  RunFolder::Make(directory);
+  const FolderLock lock(directory);
+  folder.emplace(directory, experiment_);
+  OptimumSearch optimum(world_, {experiment_.run().optimum_limit_s(),
+                                 int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
+  LiveLine line(true);
+  while (!StopSignal::Requested() && retraining.Step()) {
+    line.Show(ProgressText(retraining.trainer(), experiment_.schedule().episodes(), SecondsSince(begin_us)));
+  }
+  const double wall_s = SecondsSince(begin_us);
+  completed_ = retraining.trainer().finished();
+  if (completed_) {
+    WaitForEnd(optimum, line);
+  }
+  optimum.Stop();
+  report_.counts = retraining.counts();
+  return Results(retraining.trainer(), wall_s, optimum.plan(), *folder);
+}
+
+std::string RetrainRun::Results(const Trainer& trainer, double wall_s, std::shared_ptr<const Plan> plan,
+                                RunFolder& folder) {
+  if (plan != nullptr) {
+    folder.WriteOptimum(OptimumJson(world_, *plan));
+  }
+  folder.WriteFinal(trainer.current(), trainer.progress());
+  folder.Finish();
+  const std::string summary = WithRetrainReport(
+      SummaryJson({experiment_, world_, DrawIdentifier(), completed_, wall_s, trainer, {}, std::move(plan)}),
+      report_);
+  folder.WriteSummary(summary);
+  return summary;
+}
+
+}  // namespace fresco
