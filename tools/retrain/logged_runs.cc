@@ -12,10 +12,6 @@
 namespace fresco {
 namespace {
 
-std::string IdOf(const LoggedRun& run) {
-  return fmt::format("{:016x}", static_cast<uint64_t>(run.identity.run_id));
-}
-
 /// Runs by their identity, in the order in which they appear.
 class Runs {
  public:
@@ -52,6 +48,10 @@ class Runs {
 
 }  // namespace
 
+std::string RunIdText(const LoggedRun& run) {
+  return fmt::format("{:016x}", static_cast<uint64_t>(run.identity.run_id));
+}
+
 std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
   Runs runs;
   LogMessages messages(source);
@@ -70,10 +70,10 @@ std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
 LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id) {
   std::string known;
   for (const LoggedRun& run : runs) {
-    if (run_id.empty() ? runs.size() == 1 : IdOf(run) == run_id) {
+    if (run_id.empty() ? runs.size() == 1 : RunIdText(run) == run_id) {
       return run;
     }
-    known += fmt::format("\n  {} (configuration {:08x}, {} messages of transitions)", IdOf(run),
+    known += fmt::format("\n  {} (configuration {:08x}, {} messages of transitions)", RunIdText(run),
                          run.identity.config_hash, run.transitions_messages);
   }
   throw UsageError(runs.empty() ? "no run of Fresco is in the log"

@@ -18,11 +18,14 @@ struct LoggedRun {
   std::optional<std::string> config_text = {};         ///< none: not every part of it was recorded
 };
 
+/// The run's id as people write it: 16 hexadecimal digits.
+std::string RunIdText(const LoggedRun& run);
+
 /// Those of which transitions or the configuration were recorded, in the order in which they appear. Throws
 /// UsageError where a log can't be read.
 std::vector<LoggedRun> FindLoggedRuns(const LogSource& source);
 
-/// The one with this id, as people write it (16 hexadecimal digits); with an empty text the only one. Throws
+/// The one with this id, as RunIdText writes it; with an empty text the only one. Throws
 /// UsageError that lists the runs where that does not name one.
 LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id);
 

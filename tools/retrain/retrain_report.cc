@@ -9,10 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string RunIdText(const LoggedRun& run) {
-  return fmt::format("{:016x}", static_cast<uint64_t>(run.identity.run_id));
-}
-
 std::string DamageText(const RetrainReport& report) {
   const MergedEventLogs::Totals& totals = report.totals;
   std::string text;
