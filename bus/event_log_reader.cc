@@ -18,7 +18,6 @@ namespace {
 
 constexpr uint32_t kSyncWord = 0xEDA1DA01;
 constexpr size_t kSyncBytes = 4;
-constexpr size_t kHeaderBytes = 28;
 constexpr size_t kBlockBytes = 1 << 20;
 // What LCM's own programs put up with.
 constexpr int32_t kMaximumChannelBytes = 999;
@@ -50,7 +49,7 @@ struct Header {
            message_bytes >= 0 && message_bytes <= kMaximumMessageBytes;
   }
   size_t event_bytes() const {
-    return kHeaderBytes + static_cast<size_t>(channel_bytes) + static_cast<size_t>(message_bytes);
+    return kEventHeaderBytes + static_cast<size_t>(channel_bytes) + static_cast<size_t>(message_bytes);
   }
 
   int64_t number;
@@ -94,7 +93,7 @@ EventLogReader::~EventLogReader() {
 
 std::optional<LcmEvent> EventLogReader::Next() {
   torn_bytes_ = 0;
-  while (Buffer(kHeaderBytes)) {
+  while (Buffer(kEventHeaderBytes)) {
     const Header header(buffered().data());
     if (header.IsPossible() && Buffer(header.event_bytes())) {
       if (!SwallowsAnother(header.event_bytes())) {
@@ -116,8 +115,8 @@ LcmEvent EventLogReader::Take(size_t event_bytes, size_t channel_bytes) {
   position_ += static_cast<int64_t>(event_bytes);
   return {header.number,
           header.utime,
-          {reinterpret_cast<const char*>(event.data()) + kHeaderBytes, channel_bytes},
-          event.subspan(kHeaderBytes + channel_bytes)};
+          {reinterpret_cast<const char*>(event.data()) + kEventHeaderBytes, channel_bytes},
+          event.subspan(kEventHeaderBytes + channel_bytes)};
 }
 
 /// Whether the length of the event at hand is damaged: behind it no event begins, but within it one does.
@@ -159,8 +158,8 @@ bool EventLogReader::HasWholeEvent(int64_t end) {
 }
 
 bool EventLogReader::WholeEventBeginsAt(int64_t offset) const {
-  std::array<std::byte, kHeaderBytes> bytes;
-  if (ReadAt(offset, bytes) < kHeaderBytes || !Header(bytes.data()).IsPossible()) {
+  std::array<std::byte, kEventHeaderBytes> bytes;
+  if (ReadAt(offset, bytes) < kEventHeaderBytes || !Header(bytes.data()).IsPossible()) {
     return false;
   }
   const int64_t end = offset + static_cast<int64_t>(Header(bytes.data()).event_bytes());
@@ -179,7 +178,7 @@ void EventLogReader::SkipDamage() {
     begin_ += skipped;
     position_ += static_cast<int64_t>(skipped);
     damaged_bytes_ += static_cast<int64_t>(skipped);
-    if (is_there || !Buffer(kHeaderBytes)) {
+    if (is_there || !Buffer(kEventHeaderBytes)) {
       return;
     }
     from = 0;

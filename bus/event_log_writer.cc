@@ -12,15 +12,6 @@
 #include "core/error.h"
 
 namespace fresco {
-namespace {
-
-constexpr int64_t kHeaderBytes = 28;
-
-struct CloseLog {
-  void operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
-};
-
-}  // namespace
 
 class EventLogWriter::File {
  public:
@@ -41,6 +32,10 @@ class EventLogWriter::File {
   }
 
  private:
+  struct CloseLog {
+    void operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
+  };
+
   std::unique_ptr<lcm_eventlog_t, CloseLog> log_;
   std::string channel_;
 };
@@ -65,7 +60,7 @@ void EventLogWriter::Write(const LcmEvent& event) {
 }
 
 int64_t EventLogWriter::EventBytes(const LcmEvent& event) {
-  return kHeaderBytes + static_cast<int64_t>(event.channel.size() + event.message.size());
+  return static_cast<int64_t>(kEventHeaderBytes + event.channel.size() + event.message.size());
 }
 
 void EventLogWriter::Flush() {

@@ -16,6 +16,8 @@ function(fresco_proto_library target)
     list(APPEND outputs ${generated})
   endforeach()
   add_library(${target} STATIC ${outputs})
+  # protoc gives names that every file has to each
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   target_include_directories(${target} SYSTEM PUBLIC ${CMAKE_BINARY_DIR}/protoc-cpp)
   target_link_libraries(${target} PUBLIC protobuf::libprotobuf PRIVATE fresco_compile_options)
 endfunction()

@@ -10,9 +10,9 @@
 namespace fresco {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json BaselineFigures(const World& world, BaselineKind kind) {
+OrderedJson BaselineFigures(const World& world, BaselineKind kind) {
   const Flight flight = FlyBaseline(world, kind);
   const AoiFigures figures = Figures(world, flight);
   return {{"total_aoi", figures.total_aoi},
@@ -21,16 +21,18 @@ Json BaselineFigures(const World& world, BaselineKind kind) {
           {"arrived", flight.arrived()}};
 }
 
-Json Counters(const BusCounters& counters) {
-  Json json;
+OrderedJson Counters(const BusCounters& counters) {
+  OrderedJson json;
   for (const BusCounterField& field : kBusCounterFields) {
     json[field.name] = counters.*field.value;
   }
   return json;
 }
 
-void AddPolicy(const std::optional<BestNetwork>& best, Json& json) {
-  const auto value = [&](auto figure) { return best ? Json(figure(best->evaluation)) : Json(); };
+void AddPolicy(const std::optional<BestNetwork>& best, OrderedJson& json) {
+  const auto value = [&](auto figure) {
+    return best ? OrderedJson(figure(best->evaluation)) : OrderedJson();
+  };
   json["total_aoi"] = value([](const Evaluation& e) { return e.figures.total_aoi; });
   json["average_aoi"] = value([](const Evaluation& e) { return e.figures.average_aoi; });
   json["sum_aoi"] = value([](const Evaluation& e) { return e.figures.sum_aoi; });
@@ -38,31 +40,32 @@ void AddPolicy(const std::optional<BestNetwork>& best, Json& json) {
   json["best_version"] = value([](const Evaluation& e) { return e.version; });
 }
 
-void AddOptimum(const SummaryInputs& inputs, Json& json) {
+void AddOptimum(const SummaryInputs& inputs, OrderedJson& json) {
   const Plan* plan = inputs.plan.get();
   const std::optional<BestNetwork>& best = inputs.trainer.best();
   const bool optimal = plan != nullptr && plan->optimal;
   const AoiFigures figures = optimal ? Figures(inputs.world, plan->flight) : AoiFigures{};
-  json["optimal_total_aoi"] = optimal ? Json(figures.total_aoi) : Json();
-  json["optimal_average_aoi"] = optimal ? Json(figures.average_aoi) : Json();
-  json["lower_bound_average_aoi"] = plan != nullptr ? Json(plan->lower_bound_average_aoi) : Json();
+  json["optimal_total_aoi"] = optimal ? OrderedJson(figures.total_aoi) : OrderedJson();
+  json["optimal_average_aoi"] = optimal ? OrderedJson(figures.average_aoi) : OrderedJson();
+  json["lower_bound_average_aoi"] =
+      plan != nullptr ? OrderedJson(plan->lower_bound_average_aoi) : OrderedJson();
   json["gap_percent"] =
       plan != nullptr && best && best->evaluation.arrived
-          ? Json(GapPercent(best->evaluation.figures.average_aoi, plan->lower_bound_average_aoi))
-          : Json();
+          ? OrderedJson(GapPercent(best->evaluation.figures.average_aoi, plan->lower_bound_average_aoi))
+          : OrderedJson();
 }
 
 }  // namespace
 
 std::string OptimumJson(const World& world, const Plan& plan) {
   const AoiFigures figures = Figures(world, plan.flight);
-  Json json = {{"optimal", plan.optimal},
-               {"total_aoi", figures.total_aoi},
-               {"average_aoi", figures.average_aoi},
-               {"lower_bound_total_aoi", plan.lower_bound_total_aoi},
-               {"lower_bound_average_aoi", plan.lower_bound_average_aoi},
-               {"labels", plan.labels}};
-  Json& actions = json["actions"] = Json::array();
+  OrderedJson json = {{"optimal", plan.optimal},
+                      {"total_aoi", figures.total_aoi},
+                      {"average_aoi", figures.average_aoi},
+                      {"lower_bound_total_aoi", plan.lower_bound_total_aoi},
+                      {"lower_bound_average_aoi", plan.lower_bound_average_aoi},
+                      {"labels", plan.labels}};
+  OrderedJson& actions = json["actions"] = OrderedJson::array();
   for (size_t slot = 0; slot + 1 < plan.flight.slots.size(); ++slot) {
     actions.push_back(world.ActionIndex(plan.flight.slots[slot].action));
   }
@@ -73,7 +76,7 @@ std::string SummaryJson(const SummaryInputs& inputs) {
   const TrainerProgress& progress = inputs.trainer.progress();
   const Vector& weights = inputs.trainer.current();
   const std::span<const float> values(weights.data(), static_cast<size_t>(weights.size()));
-  Json json;
+  OrderedJson json;
   json["run_id"] = fmt::format("{:016x}", static_cast<uint64_t>(inputs.run_id));
   json["config_hash"] = fmt::format("{:08x}", inputs.experiment.hash());
   json["seed"] = inputs.experiment.schedule().seed();

@@ -12,8 +12,8 @@
 namespace fresco {
 namespace {
 
-constexpr char kFormatFamily[] = "fresco-checkpoint-";
-constexpr char kFormat[] = "fresco-checkpoint-1";
+constexpr char kCheckpointFamily[] = "fresco-checkpoint-";
+constexpr char kCheckpointFormat[] = "fresco-checkpoint-1";
 
 /// The checkpoint in the file, whose CRC holds.
 proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {
@@ -23,10 +23,10 @@ proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {
   const bool parsed = file.ParseFromArray(content.data(), static_cast<int>(content.size()));
   Expect(parsed || LooksLikeCheckpoint(content), origin, "not a checkpoint of Fresco");
   Expect(parsed, origin, fmt::format("the checkpoint is cut short, at {} bytes", content.size()));
-  Expect(file.format().starts_with(kFormatFamily), origin, "not a checkpoint of Fresco");
-  Expect(file.format() == kFormat, origin,
-         fmt::format("expected format {}, found {} of Fresco {}; use that release", kFormat, file.format(),
-                     file.software_version()));
+  Expect(file.format().starts_with(kCheckpointFamily), origin, "not a checkpoint of Fresco");
+  Expect(file.format() == kCheckpointFormat, origin,
+         fmt::format("expected format {}, found {} of Fresco {}; use that release", kCheckpointFormat,
+                     file.format(), file.software_version()));
   Expect(Crc32c(std::as_bytes(std::span(file.content()))) == file.crc32c(), origin,
          "the checkpoint is damaged: its CRC does not hold");
   proto::Checkpoint checkpoint;
@@ -57,7 +57,7 @@ std::string SerializeCheckpoint(const Checkpoint& checkpoint) {
                               to.ByteSizeLong(), kLargest));
   }
   proto::CheckpointFile file;
-  file.set_format(kFormat);
+  file.set_format(kCheckpointFormat);
   file.set_software_version(kSoftwareVersion);
   to.SerializeToString(file.mutable_content());
   file.set_crc32c(Crc32c(std::as_bytes(std::span(file.content()))));
@@ -67,7 +67,7 @@ std::string SerializeCheckpoint(const Checkpoint& checkpoint) {
 bool LooksLikeCheckpoint(std::string_view content) {
   // The format is the file's first field: a tag and a length before it.
   constexpr size_t kBefore = 2;
-  return content.size() > kBefore && content.substr(kBefore).starts_with(kFormatFamily);
+  return content.size() > kBefore && content.substr(kBefore).starts_with(kCheckpointFamily);
 }
 
 Checkpoint ParseCheckpoint(std::string_view content, const std::string& origin) {

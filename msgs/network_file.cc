@@ -15,7 +15,7 @@
 namespace fresco {
 namespace {
 
-constexpr char kFormat[] = "fresco-network-1";
+constexpr char kNetworkFormat[] = "fresco-network-1";
 
 Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const std::string& origin) {
   const size_t expected = static_cast<size_t>(shape.parameter_count()) * sizeof(float);
@@ -35,7 +35,7 @@ Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const
 
 std::string SerializeNetworkFile(const StoredNetwork& network) {
   proto::NetworkFile file;
-  file.set_format(kFormat);
+  file.set_format(kNetworkFormat);
   const MlpShape shape = network.experiment.network_shape();
   for (const int size : shape.layer_sizes()) {
     file.add_layer_sizes(size);
@@ -63,8 +63,8 @@ StoredNetwork ParseNetworkFile(std::string_view content, const std::string& orig
           file.ParseFromArray(content.data(), static_cast<int>(content.size())) && file.has_format(),
       origin,
       "not a network file of Fresco, or cut short; expected best.network or final.network of a run's folder");
-  Expect(file.format() == kFormat, origin,
-         fmt::format("expected format {}, found {}", kFormat, file.format()));
+  Expect(file.format() == kNetworkFormat, origin,
+         fmt::format("expected format {}, found {}", kNetworkFormat, file.format()));
   Experiment experiment = Experiment::Parse(file.config_text(), origin + " (its configuration)");
   const MlpShape shape = experiment.network_shape();
   Vector parameters = ParametersOf(file, shape, origin);

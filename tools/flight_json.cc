@@ -6,22 +6,22 @@ namespace fresco {
 
 std::string FlightJson(const World& world, const Flight& flight, const std::string& policy,
                        const std::optional<Plan>& plan) {
-  using Json = nlohmann::ordered_json;
+  using OrderedJson = nlohmann::ordered_json;
   const AoiFigures figures = Figures(world, flight);
-  Json json = {{"policy", policy},
-               {"arrived", flight.arrived()},
-               {"outcome", OutcomeName(flight.outcome)},
-               {"slots", flight.slots.size()},
-               {"total_aoi", figures.total_aoi},
-               {"average_aoi", figures.average_aoi},
-               {"sum_aoi", figures.sum_aoi},
-               {"residual_energy_j", flight.residual_energy_j}};
+  OrderedJson json = {{"policy", policy},
+                      {"arrived", flight.arrived()},
+                      {"outcome", OutcomeName(flight.outcome)},
+                      {"slots", flight.slots.size()},
+                      {"total_aoi", figures.total_aoi},
+                      {"average_aoi", figures.average_aoi},
+                      {"sum_aoi", figures.sum_aoi},
+                      {"residual_energy_j", flight.residual_energy_j}};
   if (plan) {
     json["optimal"] = plan->optimal;
     json["lower_bound_total_aoi"] = plan->lower_bound_total_aoi;
     json["lower_bound_average_aoi"] = plan->lower_bound_average_aoi;
   }
-  Json& slots = json["flight"] = Json::array();
+  OrderedJson& slots = json["flight"] = OrderedJson::array();
   for (const FlightSlot& slot : flight.slots) {
     slots.push_back({{"slot", slot.state.slot},
                      {"column", slot.state.cell.column},

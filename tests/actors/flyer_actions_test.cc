@@ -11,25 +11,22 @@
 namespace fresco {
 namespace {
 
-constexpr double kDeviations = 5;
-constexpr double kRounding = 1e-5;  // of single precision in a value
-
 int Allowed(const Mask& mask) {
   return std::accumulate(mask.begin(), mask.end(), 0);
 }
 
-struct Variant {
+struct ActionVariant {
   bool masks;
   bool sensor_geometry;
 };
 
-Settings SettingsOf(const Variant& variant) {
+Settings SettingsOf(const ActionVariant& variant) {
   Settings settings = variant.masks ? WithMasks() : Settings{};
   settings.emplace_back("agent.sensor_geometry", variant.sensor_geometry ? "true" : "false");
   return settings;
 }
 
-class FlyerActions : public ::testing::TestWithParam<Variant> {
+class FlyerActions : public ::testing::TestWithParam<ActionVariant> {
  protected:
   FlightPlan Plan(int64_t index, double epsilon, uint32_t network = 1) const {
     return {TrainOrder(index, epsilon), SampleNetwork(experiment_, network), SampleNetwork(experiment_, 0)};
@@ -60,7 +57,7 @@ TEST_P(FlyerActions, AreTheLiteralArgmaxAmongAllowedOnesOfAGreedyOrder) {
     const auto masks = MasksOf(world_, experiment_, episode);
     for (size_t i = 0; i < episode.actions.size(); ++i) {
       const Doubles values = LiteralValues(experiment_, *plan.current, episode.states[i]);
-      if (Lead(values, masks[i]) > kRounding) {
+      if (Lead(values, masks[i]) > kValueRounding) {
         ++decisive;
         EXPECT_EQ(episode.actions[i], LiteralArgmax(values, masks[i])) << network << ", " << i;
       }
@@ -141,7 +138,8 @@ TEST_P(FlyerActions, OfFlyGreedilyAreThoseOfAnyOrderWithEpsilonZero) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Options, FlyerActions,
-                         ::testing::Values(Variant{false, false}, Variant{true, false}, Variant{true, true}),
+                         ::testing::Values(ActionVariant{false, false}, ActionVariant{true, false},
+                                           ActionVariant{true, true}),
                          [](const auto& instance) {
                            return std::string(instance.param.masks ? "Masked" : "Free") +
                                   (instance.param.sensor_geometry ? "WithGeometry" : "");

@@ -10,15 +10,15 @@
 namespace fresco {
 namespace {
 
-struct Variant {
+struct ErrorVariant {
   const char* name;
   bool double_dqn;
   bool masks;
 };
 
-class FlyerErrors : public ::testing::TestWithParam<Variant> {
+class FlyerErrors : public ::testing::TestWithParam<ErrorVariant> {
  protected:
-  static Experiment ExperimentOf(const Variant& variant) {
+  static Experiment ExperimentOf(const ErrorVariant& variant) {
     Settings settings = variant.masks ? WithMasks() : Settings{};
     settings.emplace_back("agent.double_dqn", variant.double_dqn ? "true" : "false");
     return SmallField(settings);
@@ -110,9 +110,10 @@ TEST_P(FlyerErrors, BelongToEpisodesThatTheEnvironmentFliesAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, FlyerErrors,
-                         ::testing::Values(Variant{"Plain", false, false}, Variant{"Double", true, false},
-                                           Variant{"PlainMasked", false, true},
-                                           Variant{"DoubleMasked", true, true}),
+                         ::testing::Values(ErrorVariant{"Plain", false, false},
+                                           ErrorVariant{"Double", true, false},
+                                           ErrorVariant{"PlainMasked", false, true},
+                                           ErrorVariant{"DoubleMasked", true, true}),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

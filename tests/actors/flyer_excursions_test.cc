@@ -13,8 +13,6 @@
 namespace fresco {
 namespace {
 
-constexpr double kDeviations = 5;
-
 Experiment FieldWithExcursions(double share, const Settings& settings = {}) {
   Settings all = settings;
   all.emplace_back("schedule.excursion_share", std::to_string(share));
@@ -23,8 +21,7 @@ Experiment FieldWithExcursions(double share, const Settings& settings = {}) {
 
 /// An action as a literal flyer would take it; nothing where either of two is a matter of rounding.
 std::optional<int> LiteralChoice(const Doubles& values, const Mask& mask) {
-  constexpr double kRounding = 1e-5;
-  return Lead(values, mask) > kRounding ? std::optional(LiteralArgmax(values, mask)) : std::nullopt;
+  return Lead(values, mask) > kValueRounding ? std::optional(LiteralArgmax(values, mask)) : std::nullopt;
 }
 
 /// The mask with all moves but one left out.

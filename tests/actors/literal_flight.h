@@ -10,6 +10,12 @@ namespace fresco {
 
 using Mask = std::vector<uint8_t>;
 
+/// What single precision may change in a value.
+inline constexpr double kValueRounding = 1e-5;
+
+/// Standard deviations that a number of random choices may be off.
+inline constexpr double kDeviations = 5;
+
 /// Q(s, .) of a network.
 Doubles LiteralValues(const Experiment& experiment, const Vector& parameters, const State& state);
 

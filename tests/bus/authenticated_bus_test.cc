@@ -7,16 +7,10 @@
 #include <thread>
 #include <vector>
 
+#include "tests/bus/text_messages.h"
+
 namespace fresco {
 namespace {
-
-std::span<const std::byte> Bytes(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
-
-std::string Text(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 std::string Hexadecimal(const std::string& bytes) {
   std::string digits;

@@ -12,6 +12,7 @@
 #include "bus/authenticated_bus.h"
 #include "bus/open_bus.h"
 #include "core/error.h"
+#include "tests/bus/text_messages.h"
 
 namespace fresco {
 namespace {
@@ -96,13 +97,13 @@ TEST_F(KeyFiles, AreRefusedWhereOthersMayReadOrWriteThem) {
 TEST_F(KeyFiles, OpenABusWithTheirKey) {
   const auto bus = OpenBus("memq://", {.key_file = Write(std::string(32, 'k'))});
   const std::string secret(32, 'k');
-  const auto same = MakeAuthenticatedBus(*bus, AuthenticationKey(std::as_bytes(std::span(secret))));
+  const auto same = MakeAuthenticatedBus(*bus, AuthenticationKey(Bytes(secret)));
   int heard = 0;
   int heard_twice = 0;
   bus->Subscribe("A", [&](auto message) { heard += message.empty() ? 0 : 1; });
   same->Subscribe("B", [&](auto message) { heard_twice += message.size() == 1 ? 1 : 0; });
-  bus->Publish("A", std::as_bytes(std::span("m", 1)));
-  same->Publish("B", std::as_bytes(std::span("m", 1)));  // one tag within the other
+  bus->Publish("A", Bytes("m"));
+  same->Publish("B", Bytes("m"));  // one tag within the other
   while (bus->Poll(0) > 0) {
   }
   EXPECT_EQ(heard, 1);

@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+#include "tests/bus/text_messages.h"
+
 namespace fresco {
 namespace {
 
@@ -23,7 +25,7 @@ LogEvent Owned(const LcmEvent& event) {
 }
 
 LcmEvent EventOf(const LogEvent& event) {
-  return {0, event.utime, event.channel, std::as_bytes(std::span(event.message))};
+  return {0, event.utime, event.channel, Bytes(event.message)};
 }
 
 std::vector<LogEvent> SampleEvents(int count, int64_t first_utime) {

@@ -9,17 +9,10 @@
 #include "bus/bus.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "tests/bus/text_messages.h"
 
 namespace fresco {
 namespace {
-
-std::span<const std::byte> Bytes(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
-
-std::string Text(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 /// Polls until `done` or a deadline far beyond what is needed.
 template <class Done>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "tests/bus/text_messages.h"
 
 namespace fresco {
 namespace {
@@ -31,7 +32,7 @@ std::vector<std::string> Disturbed(LossOptions options, int count) {
   const auto bus = MakeLossyBus(inner, options);
   for (int i = 0; i < count; ++i) {
     const std::string message = std::to_string(1'000'000 + i);
-    bus->Publish("A", std::as_bytes(std::span(message)));
+    bus->Publish("A", Bytes(message));
   }
   return inner.messages;
 }

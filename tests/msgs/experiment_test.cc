@@ -3,21 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "tests/msgs/usage_error.h"
 
 namespace fresco {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::string ErrorOf(const std::string& text, const Settings& settings = {}) {
-  try {
-    Experiment::Parse(text, "file.textproto", settings);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_status(), 2);
-    return error.what();
-  }
-  return "no error";
+std::string ErrorWith(const std::string& text, const Settings& settings = {}) {
+  return UsageErrorOf([&] { Experiment::Parse(text, "file.textproto", settings); });
 }
 
 TEST(Experiment, TakesTablesIAndIIWhereNothingIsSaid) {
@@ -97,29 +91,30 @@ TEST(Experiment, TakesSettingsByPath) {
 }
 
 TEST(Experiment, NamesWhatIsWrongInAFile) {
-  EXPECT_THAT(ErrorOf("scenario {\n  slotz: 3 }"), HasSubstr("file.textproto:2:"));
-  EXPECT_THAT(ErrorOf("scenario {\n  slotz: 3 }"), HasSubstr("slotz"));
-  EXPECT_EQ(ErrorOf("agent { batch_size: 0 }"),
+  EXPECT_THAT(ErrorWith("scenario {\n  slotz: 3 }"), HasSubstr("file.textproto:2:"));
+  EXPECT_THAT(ErrorWith("scenario {\n  slotz: 3 }"), HasSubstr("slotz"));
+  EXPECT_EQ(ErrorWith("agent { batch_size: 0 }"),
             "file.textproto: agent.batch_size: 0 is out of range; allowed: 1 to 65536");
-  EXPECT_THAT(ErrorOf("agent { hidden_layers: [8, 0] }"),
+  EXPECT_THAT(ErrorWith("agent { hidden_layers: [8, 0] }"),
               HasSubstr("agent.hidden_layers[1]: 0 is out of range"));
-  EXPECT_THAT(ErrorOf("agent { discount: nan }"), HasSubstr("agent.discount: nan is out of range"));
-  EXPECT_THAT(ErrorOf("scenario { slots: 1 }"), HasSubstr("file.textproto: scenario.slots"));
-  EXPECT_THAT(ErrorOf("scenario { sensor { x_m: 1 y_m: 1 } random_sensors { count: 2 } }"),
+  EXPECT_THAT(ErrorWith("agent { discount: nan }"), HasSubstr("agent.discount: nan is out of range"));
+  EXPECT_THAT(ErrorWith("scenario { slots: 1 }"), HasSubstr("file.textproto: scenario.slots"));
+  EXPECT_THAT(ErrorWith("scenario { sensor { x_m: 1 y_m: 1 } random_sensors { count: 2 } }"),
               HasSubstr("contradict"));
-  EXPECT_THAT(ErrorOf("scenario { coverage_radius_m: 9 transmit_power_w: 1 }"),
+  EXPECT_THAT(ErrorWith("scenario { coverage_radius_m: 9 transmit_power_w: 1 }"),
               HasSubstr("transmit_power_w"));
-  EXPECT_THAT(ErrorOf("scenario { random_sensors { count: 251 } }"), HasSubstr("random_sensors.count: 251"));
-  EXPECT_THAT(ErrorOf("scenario { slots: 15 }"), HasSubstr("scenario."));
-  EXPECT_THAT(ErrorOf("scenario { initial_energy_j: 10 }"), HasSubstr("initial_energy_j"));
+  EXPECT_THAT(ErrorWith("scenario { random_sensors { count: 251 } }"),
+              HasSubstr("random_sensors.count: 251"));
+  EXPECT_THAT(ErrorWith("scenario { slots: 15 }"), HasSubstr("scenario."));
+  EXPECT_THAT(ErrorWith("scenario { initial_energy_j: 10 }"), HasSubstr("initial_energy_j"));
 }
 
 TEST(Experiment, NamesWhatIsWrongInASetting) {
-  EXPECT_THAT(ErrorOf("", {{"agent.batchsize", "3"}}), HasSubstr("batch_size"));
-  EXPECT_THAT(ErrorOf("", {{"agent.batch_size", "many"}}), HasSubstr("\"many\""));
-  EXPECT_THAT(ErrorOf("", {{"agent", "3"}}), HasSubstr("--set agent"));
-  EXPECT_THAT(ErrorOf("", {{"scenario.sensor[0].x_m", "3"}}), HasSubstr("no such index"));
-  EXPECT_THAT(ErrorOf("", {{"scenario.sensor[x].x_m", "3"}}), HasSubstr("name[index]"));
+  EXPECT_THAT(ErrorWith("", {{"agent.batchsize", "3"}}), HasSubstr("batch_size"));
+  EXPECT_THAT(ErrorWith("", {{"agent.batch_size", "many"}}), HasSubstr("\"many\""));
+  EXPECT_THAT(ErrorWith("", {{"agent", "3"}}), HasSubstr("--set agent"));
+  EXPECT_THAT(ErrorWith("", {{"scenario.sensor[0].x_m", "3"}}), HasSubstr("no such index"));
+  EXPECT_THAT(ErrorWith("", {{"scenario.sensor[x].x_m", "3"}}), HasSubstr("name[index]"));
 }
 
 }  // namespace

@@ -101,10 +101,10 @@ bool SomeFlightReachesStop(const Scenario& scenario, Cell cell, int slots_left, 
   if (slots_left < 0) {
     return false;
   }
-  using Situation = std::pair<std::pair<int, int>, int>;  // (column, row), hovers
-  std::set<Situation> situations = {{{cell.column, cell.row}, 0}};
+  using PlaceAndHovers = std::pair<std::pair<int, int>, int>;  // (column, row), hovers
+  std::set<PlaceAndHovers> situations = {{{cell.column, cell.row}, 0}};
   for (int slot = 0; slot < slots_left; ++slot) {
-    std::set<Situation> next;
+    std::set<PlaceAndHovers> next;
     for (const auto& [place, hovers] : situations) {
       for (const auto& [move, step] : kSteps) {
         const Cell from{place.first, place.second};

@@ -14,21 +14,21 @@
 namespace fresco {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 template <class Message>
-Json JsonOf(const Message& message);
+OrderedJson JsonOf(const Message& message);
 
-Json JsonOfCell(const CsvCell& cell) {
-  return std::visit([](const auto& value) { return Json(value); }, cell);
+OrderedJson JsonOfCell(const CsvCell& cell) {
+  return std::visit([](const auto& value) { return OrderedJson(value); }, cell);
 }
 
 template <class Value>
-Json JsonOfField(const char* name, const Value& value) {
+OrderedJson JsonOfField(const char* name, const Value& value) {
   if constexpr (requires { CellOf(name, value); }) {
     return JsonOfCell(CellOf(name, value));
   } else if constexpr (requires { value.begin(); }) {
-    Json list = Json::array();
+    OrderedJson list = OrderedJson::array();
     for (const auto& element : value) {
       list.push_back(JsonOfField(name, element));
     }
@@ -39,8 +39,8 @@ Json JsonOfField(const char* name, const Value& value) {
 }
 
 template <class Message>
-Json JsonOf(const Message& message) {
-  Json json = Json::object();
+OrderedJson JsonOf(const Message& message) {
+  OrderedJson json = OrderedJson::object();
   ForEachField(message, [&json](const char* name, const auto& value) {
     if constexpr (std::is_same_v<decltype(value), const std::vector<uint8_t>&>) {  // a piece of text
       json[name] = std::string(value.begin(), value.end());
@@ -62,7 +62,7 @@ std::string FirstBytes(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
-  Json json = {{"utime", event.utime}, {"channel", event.channel}, {"type", nullptr}};
+  OrderedJson json = {{"utime", event.utime}, {"channel", event.channel}, {"type", nullptr}};
   const auto result = decoder.Decode(event.message, [&json](const auto& message) {
     json["type"] = message.getTypeName();
     json["message"] = JsonOf(message);
@@ -75,7 +75,7 @@ std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
     json["bytes"] = event.message.size();
     json["fingerprint"] = FirstBytes(event.message);
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // texts come from the network
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);  // texts come from the network
 }
 
 }  // namespace fresco

@@ -9,7 +9,7 @@
 namespace fresco {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr size_t kShownGaps = 8;
 
@@ -90,21 +90,21 @@ std::string ActorTable(const LogSummary& summary) {
   return text;
 }
 
-Json RunJson(int64_t run_id, const RunTraffic& run) {
-  Json json = {{"run_id", RunIdText(run_id)},
-               {"config_hash", fmt::format("{:08x}", run.config_hash)},
-               {"config_known", run.config_known()},
-               {"finished", run.finished},
-               {"first_order", run.first_order ? Json(*run.first_order) : Json(nullptr)},
-               {"last_order", run.first_order ? Json(run.last_order) : Json(nullptr)},
-               {"committed_orders", run.committed_orders},
-               {"orders_without_transitions", run.orders_without_transitions()},
-               {"episodes_whole", run.episodes.whole()},
-               {"episodes_partial", run.episodes.partial()},
-               {"transitions", run.episodes.transitions()},
-               {"transitions_missing", run.episodes.missing_transitions()},
-               {"transitions_repeated", run.episodes.repeated_transitions()},
-               {"actors", run.actors}};
+OrderedJson RunJson(int64_t run_id, const RunTraffic& run) {
+  OrderedJson json = {{"run_id", RunIdText(run_id)},
+                      {"config_hash", fmt::format("{:08x}", run.config_hash)},
+                      {"config_known", run.config_known()},
+                      {"finished", run.finished},
+                      {"first_order", run.first_order ? OrderedJson(*run.first_order) : OrderedJson(nullptr)},
+                      {"last_order", run.first_order ? OrderedJson(run.last_order) : OrderedJson(nullptr)},
+                      {"committed_orders", run.committed_orders},
+                      {"orders_without_transitions", run.orders_without_transitions()},
+                      {"episodes_whole", run.episodes.whole()},
+                      {"episodes_partial", run.episodes.partial()},
+                      {"transitions", run.episodes.transitions()},
+                      {"transitions_missing", run.episodes.missing_transitions()},
+                      {"transitions_repeated", run.episodes.repeated_transitions()},
+                      {"actors", run.actors}};
   if (run.learner_status) {
     json["learner_episodes"] = run.learner_status->episodes;
     json["learner_updates"] = run.learner_status->updates;
@@ -112,8 +112,8 @@ Json RunJson(int64_t run_id, const RunTraffic& run) {
   return json;
 }
 
-Json ActorJson(int64_t actor_id, const ActorTraffic& actor) {
-  Json gaps = Json::array();
+OrderedJson ActorJson(int64_t actor_id, const ActorTraffic& actor) {
+  OrderedJson gaps = OrderedJson::array();
   for (const Interval& gap : actor.sequences.Gaps(kShownGaps)) {
     gaps.push_back({gap.first, gap.last});
   }
@@ -139,17 +139,17 @@ std::string LogSummaryText(const LogSummary& summary, const MergedEventLogs::Tot
 }
 
 std::string LogSummaryJson(const LogSummary& summary, const MergedEventLogs::Totals& totals) {
-  Json json = {{"events", summary.events()},
-               {"bytes", totals.bytes},
-               {"begin_utime", summary.begin_utime()},
-               {"duration_s", summary.duration_s()},
-               {"damaged_bytes", totals.damaged_bytes},
-               {"torn_bytes", totals.torn_bytes},
-               {"foreign_messages", summary.foreign_messages()},
-               {"damaged_messages", summary.damaged_messages()},
-               {"beyond_limits", summary.beyond_limits()}};
+  OrderedJson json = {{"events", summary.events()},
+                      {"bytes", totals.bytes},
+                      {"begin_utime", summary.begin_utime()},
+                      {"duration_s", summary.duration_s()},
+                      {"damaged_bytes", totals.damaged_bytes},
+                      {"torn_bytes", totals.torn_bytes},
+                      {"foreign_messages", summary.foreign_messages()},
+                      {"damaged_messages", summary.damaged_messages()},
+                      {"beyond_limits", summary.beyond_limits()}};
   for (const char* list : {"channels", "runs", "actors"}) {
-    json[list] = Json::array();
+    json[list] = OrderedJson::array();
   }
   for (const auto& [name, channel] : summary.channels()) {
     json["channels"].push_back({{"channel", name},
@@ -165,7 +165,7 @@ std::string LogSummaryJson(const LogSummary& summary, const MergedEventLogs::Tot
   for (const auto& [actor_id, actor] : summary.actors()) {
     json["actors"].push_back(ActorJson(actor_id, actor));
   }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace fresco

@@ -11,12 +11,12 @@ namespace fresco {
 namespace {
 
 std::string JsonLine(const NamedRow& row) {
-  using Json = nlohmann::ordered_json;
-  Json json = Json::object();
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson json = OrderedJson::object();
   for (const auto& [name, cell] : row) {
-    json[name] = std::visit([](const auto& value) { return Json(value); }, cell);
+    json[name] = std::visit([](const auto& value) { return OrderedJson(value); }, cell);
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace fresco {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::string_view kPage =
 #include "tools/report/page.html.inc"
@@ -75,13 +75,13 @@ std::string FiguresHtml(const std::vector<ReportFigure>& figures) {
   return html + "</div>\n";
 }
 
-Json CellJson(Cell cell) {
+OrderedJson CellJson(Cell cell) {
   return {{"column", cell.column}, {"row", cell.row}};
 }
 
-Json WorldJson(const World& world) {
+OrderedJson WorldJson(const World& world) {
   const Scenario& scenario = world.scenario();
-  Json sensors = Json::array();
+  OrderedJson sensors = OrderedJson::array();
   for (const Sensor& sensor : scenario.sensors) {
     sensors.push_back({{"x_m", sensor.x_m}, {"y_m", sensor.y_m}, {"weight", sensor.weight}});
   }
@@ -97,8 +97,8 @@ Json WorldJson(const World& world) {
 
 /// What `fresco evaluate --format json` prints, and in each slot whether the scheduled sensor is
 /// collected: whether the UAV covers it.
-Json FlightDataJson(const World& world, const Flight& flight) {
-  Json json = Json::parse(FlightJson(world, flight, ""));
+OrderedJson FlightDataJson(const World& world, const Flight& flight) {
+  OrderedJson json = OrderedJson::parse(FlightJson(world, flight, ""));
   for (size_t slot = 0; slot < flight.slots.size(); ++slot) {
     const Cell cell = flight.slots[slot].state.cell;
     const int scheduled = flight.slots[slot].action.schedule;
@@ -108,14 +108,14 @@ Json FlightDataJson(const World& world, const Flight& flight) {
 }
 
 std::string FlightsHtml(const World& world, const std::vector<ReportFlight>& flights) {
-  Json array = Json::array();
+  OrderedJson array = OrderedJson::array();
   for (const ReportFlight& flight : flights) {
     array.push_back(FlightDataJson(world, flight.flight));
     array.back()["policy"] = flight.name;
   }
-  const Json data = {{"world", WorldJson(world)}, {"flights", std::move(array)}};
+  const OrderedJson data = {{"world", WorldJson(world)}, {"flights", std::move(array)}};
   // A name that is no UTF-8 is shown with replacement characters.
-  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   return FilledTemplate(kFlightPlayer, {{"data", EscapedJson(text)}});
 }
 

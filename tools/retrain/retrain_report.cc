@@ -7,7 +7,7 @@
 namespace fresco {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string DamageText(const RetrainReport& report) {
   const MergedEventLogs::Totals& totals = report.totals;
@@ -92,8 +92,8 @@ std::string EndText(const RetrainReport& report) {
 }
 
 std::string WithRetrainReport(const std::string& summary_json, const RetrainReport& report) {
-  Json json = Json::parse(summary_json);
-  Json logs = Json::array();
+  OrderedJson json = OrderedJson::parse(summary_json);
+  OrderedJson logs = OrderedJson::array();
   for (const auto& log : report.logs) {
     logs.push_back(log.string());
   }

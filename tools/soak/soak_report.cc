@@ -10,7 +10,7 @@
 namespace fresco {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// How the run recovered from the faults of one kind.
 struct Recovery {
@@ -126,13 +126,13 @@ std::string FailureText(const SoakReport& report) {
 
 // ---- JSON.
 
-Json JsonOf(const RoundResult& result) {
-  Json json;
+OrderedJson JsonOf(const RoundResult& result) {
+  OrderedJson json;
   json["wall_s"] = result.wall_s;
   json["complete"] = result.facts.has_value();
-  json["weights_crc32c"] = result.facts ? Json(result.facts->weights_crc32c) : Json();
-  json["transitions"] = result.facts ? Json(result.facts->transitions) : Json();
-  json["updates"] = result.facts ? Json(result.facts->updates) : Json();
+  json["weights_crc32c"] = result.facts ? OrderedJson(result.facts->weights_crc32c) : OrderedJson();
+  json["transitions"] = result.facts ? OrderedJson(result.facts->transitions) : OrderedJson();
+  json["updates"] = result.facts ? OrderedJson(result.facts->updates) : OrderedJson();
   json["faults"] = result.faults.size();
   json["resumptions"] = result.resumptions;
   json["longest_gap_s"] = result.longest_pause_s;
@@ -140,16 +140,16 @@ Json JsonOf(const RoundResult& result) {
   return json;
 }
 
-Json JsonOf(const SoakReport& report, const SoakRoundReport& round) {
-  Json json = {{"round", round.number}, {"disturbance", round.disturbance}};
+OrderedJson JsonOf(const SoakReport& report, const SoakRoundReport& round) {
+  OrderedJson json = {{"round", round.number}, {"disturbance", round.disturbance}};
   json.update(JsonOf(round.result));
   json["transitions_lost"] = LostTransitions(report, round.result);
   json["repeat"] = round.repeat;
   return json;
 }
 
-Json JsonOf(const UseByProgram& use) {
-  Json json = Json::object();
+OrderedJson JsonOf(const UseByProgram& use) {
+  OrderedJson json = OrderedJson::object();
   for (const auto& [program, figures] : use) {
     json[program] = {{"peak_kib", figures.peak_kib}, {"descriptors", figures.descriptors}};
   }
@@ -173,14 +173,14 @@ std::string SoakText(const SoakReport& report) {
 }
 
 std::string SoakJson(const SoakReport& report) {
-  Json json;
+  OrderedJson json;
   json["verdict"] = Verdict(report);
   json["failures"] = report.failures;
   json["seed"] = report.seed;
   json["folder"] = report.folder.string();
   json["wall_s"] = report.wall_s;
   json["undisturbed"] = JsonOf(report.undisturbed);
-  json["rounds"] = Json::array();
+  json["rounds"] = OrderedJson::array();
   int64_t lost = 0;
   for (const SoakRoundReport& round : report.rounds) {
     json["rounds"].push_back(JsonOf(report, round));
