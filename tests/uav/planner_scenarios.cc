@@ -10,10 +10,6 @@
 namespace fresco {
 namespace {
 
-int Between(RandomStream* stream, int low, int high) {
-  return low + static_cast<int>(stream->NextBelow(static_cast<uint32_t>(high - low + 1)));
-}
-
 double Flying(const Scenario& scenario) {
   return LiteralPower(scenario.rotor, scenario.speed_mps) * scenario.slot_s;
 }

@@ -9,10 +9,6 @@
 namespace fresco {
 namespace {
 
-int Between(RandomStream* stream, int low, int high) {
-  return low + static_cast<int>(stream->NextBelow(static_cast<uint32_t>(high - low + 1)));
-}
-
 bool IsValid(const Scenario& scenario) {
   try {
     World world(scenario);
@@ -23,6 +19,10 @@ bool IsValid(const Scenario& scenario) {
 }
 
 }  // namespace
+
+int Between(RandomStream* stream, int low, int high) {
+  return low + static_cast<int>(stream->NextBelow(static_cast<uint32_t>(high - low + 1)));
+}
 
 Scenario TableOneScenario() {
   Scenario scenario;

@@ -21,6 +21,9 @@ Scenario RandomScenario(uint32_t index);
 /// A stream of its own for each test and case.
 RandomStream TestStream(uint32_t test, uint32_t index);
 
+/// A whole number drawn uniformly from low .. high.
+int Between(RandomStream* stream, int low, int high);
+
 /// An action drawn uniformly from those that the mask admits.
 Action RandomAction(const World& world, const Environment& environment, MaskOptions options,
                     RandomStream* stream);
