@@ -91,8 +91,8 @@ class Train(FrescoTest):
 
     def test_ends_in_order_on_interrupt(self):
         folder = self.folder / "interrupted"
-        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17304), "--out", folder,
-                             "--format", "json", "--set", "schedule.episodes=1000000")
+        process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17304), "--out", folder, "--format", "json",
+                             "--set", "schedule.episodes=1000000", "--set", "run.optimum_limit_s=300")
         wait_until(lambda: (folder / "metrics.csv").exists() and process.poll() is None, "a first evaluation")
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=30)
