@@ -7,6 +7,8 @@ import struct
 import threading
 import time
 
+from fresco_process import PATIENCE
+
 GROUP = "239.255.76.67"
 SMALL_MESSAGE = 0x4C433032  # LCM's magic number: this packet is a whole message
 IDENTITY = struct.Struct(">QqqQ")  # fingerprint of the type, utime, run_id, config_hash; then the counts
@@ -137,13 +139,14 @@ def _send(port, packets, packets_per_s, stop, sent):
 
 
 class Flood:
-    """Sends (kind, datagram) pairs round and round, from a process of its own, until it is ended."""
+    """Sends (kind, datagram) pairs round and round, from a process of its own, until it is ended; so much slower as the
+    programs that receive them are with a sanitizer: two cores do nothing else than drop packets otherwise."""
 
     def __init__(self, port, packets, packets_per_s):
         self._packets = packets
         self._stop, self._sent = multiprocessing.Event(), multiprocessing.Value("q", 0)
         self._process = multiprocessing.Process(
-            target=_send, args=(port, packets, packets_per_s, self._stop, self._sent), daemon=True)
+            target=_send, args=(port, packets, packets_per_s / PATIENCE, self._stop, self._sent), daemon=True)
         self._begin = time.monotonic()
         self._process.start()
 
