@@ -25,9 +25,7 @@ using BusEventHandler = std::function<void(const LcmEvent& event)>;
 /// a second, the most that the pacing of networks allows, enough for a twentieth of a second in which nobody
 /// polls; what is lost is sent again. It bounds the memory that a flood can take from a program whose polling
 /// thread is busy: LCM counts messages, not bytes, and a datagram that is none of ours has up to 64 KiB, so
-/// 2048 x 64 KiB = 128 MiB a channel (Fresco's own messages: 2048 x 1350 bytes, under 3 MiB). LCM also joins
-/// fragments to messages of up to 256 MiB; those are bounded only by the sender's rate and the time in which
-/// nobody polls, so no thread that polls may be busy for long.
+/// 2048 x 64 KiB = 128 MiB a channel (Fresco's own messages: 2048 x 1350 bytes, under 3 MiB).
 inline constexpr int kDefaultQueueCapacity = 2048;
 
 class Bus {
@@ -40,12 +38,14 @@ class Bus {
 
   /// Calls `handler` for every message of exactly this channel (the name is escaped: LCM reads
   /// channels as regular expressions). Throws UsageError where LCM refuses (a firewall that drops
-  /// multicast), saying what to do. Keeps up to `queue_capacity` messages that wait for Poll.
+  /// multicast), saying what to do. Keeps up to `queue_capacity` messages that wait for Poll. From the first
+  /// call on the bus takes messages of one datagram only, up to 64 KiB: see bus/receive_filter.h.
   virtual void Subscribe(const std::string& channel, BusHandler handler,
                          int queue_capacity = kDefaultQueueCapacity) = 0;
 
-  /// Calls `handler` for every message of every channel, as it stands on the wire (an authenticated bus checks
-  /// and removes nothing here): for those who record. Throws UsageError as Subscribe does.
+  /// Calls `handler` for every message of every channel, as it stands on the wire (an authenticated bus
+  /// checks and removes nothing here): for those who record. LCM joins fragments to messages of up to 256 MiB
+  /// here, and believes their headers. Throws UsageError as Subscribe does.
   virtual void SubscribeToAll(BusEventHandler handler, int queue_capacity = kDefaultQueueCapacity) = 0;
 
   /// Handles what has arrived, or waits up to `timeout_us` microseconds for the first message; never

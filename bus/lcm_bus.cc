@@ -5,11 +5,13 @@
 #include <cerrno>
 #include <deque>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <utility>
 
 #include "bus/bus.h"
 #include "bus/lcm_url.h"
+#include "bus/receive_filter.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -63,6 +65,10 @@ class LcmBus : public Bus {
     SubscribeTo(
         EscapeChannel(channel),
         [handler = std::move(handler)](const LcmEvent& event) { handler(event.message); }, queue_capacity);
+    if (const auto port = MulticastPort(url_); port && !drops_fragments_) {
+      DropFragments(*port);  // LCM opens the socket for the first subscription
+      drops_fragments_ = true;
+    }
   }
 
   void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
@@ -102,13 +108,16 @@ class LcmBus : public Bus {
     lcm_subscription_set_queue_capacity(raw, queue_capacity);
   }
 
+  /// LCM 1.3.1 says that a datagram which ends before its channel's name has -1 bytes of content, or fewer.
+  static std::span<const std::byte> Content(const lcm_recv_buf_t& buffer) {
+    const bool whole = buffer.data_size <= static_cast<uint32_t>(std::numeric_limits<int32_t>::max());
+    return {static_cast<const std::byte*>(buffer.data), whole ? buffer.data_size : 0};
+  }
+
   static void Dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
     auto* subscription = static_cast<Subscription*>(user);
     try {
-      subscription->handler({subscription->received++,
-                             buffer->recv_utime,
-                             channel,
-                             {static_cast<const std::byte*>(buffer->data), buffer->data_size}});
+      subscription->handler({subscription->received++, buffer->recv_utime, channel, Content(*buffer)});
     } catch (...) {
       subscription->bus->exception_ = std::current_exception();
     }
@@ -129,6 +138,7 @@ class LcmBus : public Bus {
   lcm_t* lcm_;
   std::mutex publish_mutex_;
   std::deque<Subscription> subscriptions_;  // stable addresses: LCM holds them
+  bool drops_fragments_ = false;
   std::exception_ptr exception_;
 };
 

@@ -107,4 +107,12 @@ std::string NormalizeLcmUrl(const std::string& url) {
   return url;
 }
 
+std::optional<uint16_t> MulticastPort(const std::string& url) {
+  if (!url.starts_with("udpm://")) {
+    return std::nullopt;
+  }
+  const std::string address = url.substr(0, url.find('?'));
+  return static_cast<uint16_t>(ToInteger(address.substr(address.rfind(':') + 1)).value());
+}
+
 }  // namespace fresco

@@ -1,6 +1,8 @@
 // LCM URLs: checked before LCM sees them, with what Fresco needs added. Pure.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace fresco {
@@ -9,5 +11,8 @@ namespace fresco {
 /// Throws UsageError naming the offending part and an example where it is not a udpm://, tcpq:// or
 /// memq:// URL, or has an option that LCM would silently ignore.
 std::string NormalizeLcmUrl(const std::string& url);
+
+/// The UDP port of a normalized URL; none: it is not udpm.
+std::optional<uint16_t> MulticastPort(const std::string& url);
 
 }  // namespace fresco
