@@ -66,9 +66,11 @@ void Actor::HandleRun(const run_t& message) {
     }
     return;
   }
-  const bool wanted = options_.run_id == 0 || options_.run_id == message.run_id;
-  if (session_ != nullptr || !wanted || message.run_id == 0) {
+  const bool wanted = message.run_id != 0 && (options_.run_id == 0 || options_.run_id == message.run_id);
+  if (session_ != nullptr || !wanted) {
     ++totals_.rejected_messages;
+  }
+  if (!wanted || (session_ != nullptr && !IsRecordingBeside(message.utime))) {
     return;
   }
   if (message.finished != 0 || message.run_id == refused_run_) {
@@ -77,6 +79,11 @@ void Actor::HandleRun(const run_t& message) {
   if (const auto text = announcements_.Add(message)) {
     StartSession(message, *text);
   }
+}
+
+/// Whether what this actor serves is an old run's recorded messages, by those of a run that goes on now.
+bool Actor::IsRecordingBeside(int64_t other_utime) const {
+  return other_utime > 0 && session_->newest_utime < other_utime - kRecordedRunUs;
 }
 
 void Actor::StartSession(const run_t& message, const std::string& text) {

@@ -102,6 +102,7 @@ class Actor {
   actor_status_t Status(int64_t now_us);
   std::string WaitsFor(const Order& order) const;
   bool IsMine(RunIdentity identity, int64_t utime);
+  bool IsRecordingBeside(int64_t other_utime) const;
 
   template <class Message, class Handler>
   void Subscribe(const std::string& channel, Handler handler);

@@ -196,7 +196,7 @@ void LearnerNode::HandleRun(const run_t& message) {
     return;
   }
   Reject(&BusCounters::rejected_foreign);
-  if (message.finished != 0) {
+  if (message.finished != 0 || message.utime < WallMicroseconds() - kRecordedRunUs) {
     return;
   }
   if (foreign_run_ == 0) {  // once: whoever floods the bus with runs is not to fill the log

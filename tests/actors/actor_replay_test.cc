@@ -1,4 +1,6 @@
 // Recorded messages of the same run that somebody sends again, while the run goes on.
+#include <limits>
+
 #include "tests/actors/actor_fixture.h"
 
 namespace fresco {
@@ -77,6 +79,34 @@ TEST_F(ActorReplay, IsNotHearingALearnerWhoseClockWasSetBackSoTheActorJoinsAgain
   learner_.SendOrders(Orders(0, 2));
   FlyAll();
   ExpectEpisodes(0, {0, 1});
+}
+
+TEST_F(ActorReplay, OfAnEarlierRunDoesNotKeepAnActorFromTheRunThatGoesOn) {
+  LearnerDouble live(*bus_, channels_, experiment_, kRunId + 1);
+  live.SetClock(kNow + kRecordedRunUs + 1);
+  for (int i = 0; i < 3; ++i) {
+    learner_.AnnounceRun();  // the same packets again and again
+    live.AnnounceRun();
+    Step();
+    EXPECT_EQ(NextStatus().run_id, kRunId + 1);
+  }
+  EXPECT_EQ(actor_.totals().runs, 2);
+}
+
+TEST_F(ActorReplay, IsToldFromARunBesideWhoseClockIsAhead) {
+  LearnerDouble beside(*bus_, channels_, experiment_, kRunId + 1);
+  beside.SetClock(kNow + kRecordedRunUs);
+  beside.AnnounceRun();
+  EXPECT_EQ(NextStatus().run_id, kRunId);
+}
+
+TEST_F(ActorReplay, OfARunThatCantBeServedDoesNotEndTheOneThatIs) {
+  LearnerDouble liar(*bus_, channels_, experiment_, kRunId + 1);
+  for (const int64_t utime : {std::numeric_limits<int64_t>::max(), std::numeric_limits<int64_t>::min()}) {
+    liar.SetClock(utime);
+    liar.AnnounceRun([](run_t& part) { part.config_hash ^= 1; });
+    EXPECT_EQ(NextStatus().run_id, kRunId);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 """LCM's packets as raw UDP: recording those of a run, making hostile ones of them, sending them by the ten thousand."""
+import collections
 import itertools
 import multiprocessing
 import random
@@ -11,7 +12,9 @@ from fresco_process import PATIENCE
 
 GROUP = "239.255.76.67"
 SMALL_MESSAGE = 0x4C433032  # LCM's magic number: this packet is a whole message
+FRAGMENT = 0x4C433033
 IDENTITY = struct.Struct(">QqqQ")  # fingerprint of the type, utime, run_id, config_hash; then the counts
+Identity = collections.namedtuple("Identity", "fingerprint utime run_id config_hash")
 CHANNELS = ("RUN", "ORDERS", "TRANSITIONS", "WEIGHTS_CURRENT", "WEIGHTS_TARGET", "ACTOR_STATUS", "LEARNER_STATUS")
 
 
@@ -42,6 +45,10 @@ def parts(datagram):
         return "", b""
     channel, _, content = datagram[8:].partition(b"\0")
     return channel.decode(errors="replace"), content
+
+
+def identity_of(datagram):
+    return Identity(*IDENTITY.unpack_from(parts(datagram)[1]))
 
 
 def with_trailer(encoding):
@@ -101,6 +108,10 @@ def hostile_packets(recorded, run_id, seed=1):
         channel, content = real()
         return packet(channel, content[:draw.randrange(len(content))])
 
+    def fragment(offset):
+        header = struct.pack(">IIIIHH", FRAGMENT, draw.randrange(9), 1_000_000, offset, 0, 900)
+        return header + b"FRESCO_" + draw.choice(CHANNELS).encode() + b"\0" + draw.randbytes(1200)
+
     absurd = (500_000_000, -1, 2**31 - 1, -2**31)
     kinds = {
         "no LCM packet": lambda: draw.randbytes(draw.randrange(1, 1400)),
@@ -109,6 +120,10 @@ def hostile_packets(recorded, run_id, seed=1):
         "absurd count, CRC holds": lambda: changed(run=run_id, counts=absurd),
         "absurd count, CRC does not": lambda: changed(run=run_id, counts=absurd, trailer=False),
         "other channel": lambda: packet(draw.choice(("OTHER", "FRESCO_", "FRESCO_RUNS", "F" * 90)), draw.randbytes(99)),
+        "a channel of zeros": lambda: packet("", bytes(80)),  # what LCM reads behind the end of the next one
+        "a channel without its end": lambda: packet("FRESCO_" + draw.choice(CHANNELS), b"")[:-1],
+        "fragment": lambda: fragment(0),
+        "fragment behind its message's end": lambda: fragment(0xFFFFFFF0),
         "other run": lambda: changed(),
         "many other runs": lambda: changed(run=draw.randrange(1, 2**62)),
         "other configuration": lambda: changed(run=run_id, config=draw.randrange(1, 2**32)),

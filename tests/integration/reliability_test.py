@@ -11,13 +11,14 @@ import time
 import unittest
 
 from fresco_process import CI_CONFIG, PATIENCE, FrescoTest, actors_on, url, wait_until
-from hostile_packets import Flood, Recorder, hostile_packets
+from hostile_packets import Flood, Recorder, hostile_packets, identity_of, parts
 
 PORT = 17360
 SETTINGS = ("--config", CI_CONFIG, "--lcm-url", url(PORT), "--set", "schedule.episodes=1500",
             "--set", "run.optimum_limit_s=0", "--set", "run.checkpoint_interval_s=0.2")
 FLOOD_PER_S = 25_000
 REPLAYED_PER_S = 5_000
+RECORDED_US = 10_000_000  # kRecordedRunUs in msgs/wire.h
 table_file = None
 
 
@@ -119,6 +120,36 @@ class Reliability(FrescoTest):
         self.assertGreater(summary["bus"]["stale_statuses"], 0)
         return summary, f"{sum(counts.values())} packets, {summary['bus']['stale_statuses']} statuses stale"
 
+    def with_authentication(self):
+        """Recorded for with_earlier_run_replayed."""
+        self.earlier_key, recorder = self.key("earlier"), Recorder(PORT)
+        summary, injected = self.with_options("--key-file", self.earlier_key)
+        self.earlier = recorder.end()
+        return summary, injected
+
+    def with_earlier_run_replayed(self):
+        """A free actor joins the recording of an earlier run with the same key, before the learner starts beside it."""
+        def channel(datagram):
+            return parts(datagram)[0]
+
+        # Of the learner only: the statuses that are heard are the actor's.
+        replayed = [datagram for datagram in self.earlier if channel(datagram).startswith("FRESCO_")
+                    and channel(datagram) not in ("FRESCO_ACTOR_STATUS", "FRESCO_TRANSITIONS")]
+        newest_utime = max(identity_of(datagram).utime for datagram in replayed)
+        wait_until(lambda: time.time() * 1e6 > newest_utime + RECORDED_US, "the recording to be old")
+        recorder, replay = Recorder(PORT), Flood(PORT, [("recorded", datagram) for datagram in replayed], REPLAYED_PER_S)
+        actor = self.start("--lcm-url", url(PORT), "--key-file", self.earlier_key, program="fresco-actor")
+        earlier_run = identity_of(replayed[0]).run_id
+        wait_until(lambda: any(identity_of(datagram).run_id == earlier_run for datagram in list(recorder.datagrams)
+                               if channel(datagram) == "FRESCO_ACTOR_STATUS"), "the actor to join the recording")
+        recorder.end()
+        summary = self.summary_of(self.begin("after", "--key-file", self.earlier_key, "--actors", 0))
+        counts, _ = replay.end()
+        actor.send_signal(signal.SIGTERM)
+        _, log = actor.communicate(timeout=20)
+        self.assertEqual(actor.returncode, 0, log)
+        return summary, f"{sum(counts.values())} packets"
+
     def test_gives_the_same_weights_whatever_happens(self):
         disturbances = [
             ("none: 2 actors", lambda: self.with_options("--actors", 2)),
@@ -134,8 +165,9 @@ class Reliability(FrescoTest):
             ("the learner killed", self.with_learner_killed),
             ("another run on the same channels", self.with_foreign_run),
             ("a flood of hostile packets", self.with_flood),
-            ("authentication", lambda: self.with_options("--key-file", self.key())),
-            ("authentication, old messages replayed", self.with_replay)]
+            ("authentication", self.with_authentication),
+            ("authentication, old messages replayed", self.with_replay),
+            ("authentication, an earlier run replayed", self.with_earlier_run_replayed)]
         rows = []
         for name, disturb in disturbances:
             with self.subTest(disturbance=name):

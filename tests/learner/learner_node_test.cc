@@ -80,6 +80,7 @@ TEST_F(LearnerNodeTest, CountsTheAnnouncementsOfOtherRunsOnly) {
   for (const int64_t run_id : {kRunId + 1, kRunId + 2}) {
     run_t other{};
     other.run_id = run_id;
+    other.utime = WallMicroseconds();
     std::vector<std::byte> bytes;
     Encode(other, bytes);
     bus_->Publish(channels_.run, bytes);
@@ -88,6 +89,21 @@ TEST_F(LearnerNodeTest, CountsTheAnnouncementsOfOtherRunsOnly) {
   }
   EXPECT_EQ(node_.counters().rejected_foreign, 2);
   EXPECT_EQ(node_.counters().rejected, 2);
+}
+
+TEST_F(LearnerNodeTest, TakesARecordedAnnouncementForNoRunThatGoesOn) {
+  for (const int64_t run_id : {kRunId, kRunId + 1}) {  // its own of before it was resumed, another's
+    run_t recorded{};
+    recorded.run_id = run_id;
+    recorded.utime = WallMicroseconds() - kRecordedRunUs - 1;
+    std::vector<std::byte> bytes;
+    Encode(recorded, bytes);
+    bus_->Publish(channels_.run, bytes);
+  }
+  while (node_.counters().rejected_foreign < 2) {
+    bus_->Poll(1'000);
+  }
+  EXPECT_EQ(node_.foreign_run(), 0);
 }
 
 TEST_F(LearnerNodeTest, CountsHowLongTheTrainerHasWaited) {
