@@ -13,11 +13,28 @@ namespace fresco {
 namespace {
 
 constexpr char kExtension[] = ".checkpoint";
+constexpr char kUnusable[] = ".unusable";
+constexpr int kDigits = 12;
+
+bool IsCheckpointName(const std::filesystem::path& path) {
+  const std::string stem = path.stem();
+  return path.extension() == kExtension && stem.size() == kDigits &&
+         std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+void SetAside(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::rename(path, path.string() + kUnusable, error);
+  if (error) {
+    throw Failure(fmt::format("can't rename {} to {}{}: {}", path.string(), path.filename().string(),
+                              kUnusable, error.message()));
+  }
+}
 
 }  // namespace
 
 std::filesystem::path CheckpointFolder::PathFor(int64_t committed_orders) const {
-  return directory_ / fmt::format("{:012}{}", committed_orders, kExtension);
+  return directory_ / fmt::format("{:0{}}{}", committed_orders, kDigits, kExtension);
 }
 
 void CheckpointFolder::Make() const {
@@ -32,7 +49,7 @@ std::vector<std::filesystem::path> CheckpointFolder::Latest() const {
   std::vector<std::filesystem::path> paths;
   std::error_code error;  // no folder: no checkpoint
   for (const auto& entry : std::filesystem::directory_iterator(directory_, error)) {
-    if (entry.path().extension() == kExtension) {
+    if (IsCheckpointName(entry.path())) {
       paths.push_back(entry.path());
     }
   }
@@ -48,26 +65,29 @@ void CheckpointFolder::Prune(int kept) const {
   }
 }
 
-std::optional<Checkpoint> CheckpointFolder::ReadLatest() const {
+std::optional<Checkpoint> CheckpointFolder::TakeLatest(const Check& check) const {
   const std::vector<std::filesystem::path> paths = Latest();
-  std::string problems;
-  for (const std::filesystem::path& path : paths) {
+  std::vector<std::string> problems;  // one for each that is later
+  std::optional<Checkpoint> taken;
+  for (size_t i = 0; i < paths.size() && !taken; ++i) {
     try {
-      Checkpoint checkpoint = ParseCheckpoint(ReadFile(path), path.string());
-      if (!problems.empty()) {
-        spdlog::warn("going on from {} instead", path.string());
-      }
-      return checkpoint;
+      Checkpoint checkpoint = ParseCheckpoint(ReadFile(paths[i]), paths[i].string());
+      check(checkpoint, paths[i]);
+      taken = std::move(checkpoint);
     } catch (const Error& error) {
-      spdlog::warn("{}", error.what());
-      problems += fmt::format("\n  {}", error.what());
+      problems.emplace_back(error.what());
     }
   }
-  if (paths.empty()) {
-    return std::nullopt;
+  if (!taken && !paths.empty()) {
+    throw UsageError(fmt::format("{}: none of its {} checkpoints can be used:\n  {}", directory_.string(),
+                                 paths.size(), fmt::join(problems, "\n  ")));
   }
-  throw UsageError(fmt::format("{}: none of its {} checkpoints can be used; begin a new run:{}",
-                               directory_.string(), paths.size(), problems));
+  for (size_t later = 0; later < problems.size(); ++later) {
+    SetAside(paths[later]);
+    spdlog::warn("{}; going on from {} instead; renamed to {}{}", problems[later],
+                 paths[problems.size()].filename().string(), paths[later].filename().string(), kUnusable);
+  }
+  return taken;
 }
 
 }  // namespace fresco

@@ -1,9 +1,11 @@
-// The checkpoints of a run's folder: DIR/checkpoints/ORDERS.checkpoint, the last few kept. Writing is
-// the file writer's work; reading takes the latest whole one.
+// The checkpoints of a run's folder: DIR/checkpoints/ORDERS.checkpoint (twelve digits), the last few kept.
+// Writing is the file writer's work; reading takes the latest one of use. Files of other names are none of
+// its business.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,9 +31,14 @@ class CheckpointFolder {
   /// Every checkpoint, latest first.
   std::vector<std::filesystem::path> Latest() const;
 
-  /// The latest one that is whole; what is wrong with later ones is said in the log. None: there is no
-  /// checkpoint at all. Throws UsageError where there are some and none is whole.
-  std::optional<Checkpoint> ReadLatest() const;
+  /// Throws UsageError with the reason where a whole checkpoint, read from the file, is of no use.
+  using Check = std::function<void(const Checkpoint&, const std::filesystem::path&)>;
+
+  /// The latest one that is whole and passes the check. Later ones are renamed to NAME.unusable, so that they
+  /// count as none of those that Prune keeps, and the log says what is wrong with them. None: there is no
+  /// checkpoint at all. Throws UsageError where there are some and none is of use. The caller holds the
+  /// folder's lock.
+  std::optional<Checkpoint> TakeLatest(const Check& check) const;
 
  private:
   std::filesystem::path directory_;

@@ -22,6 +22,21 @@ void RefuseCompleteRun(const std::filesystem::path& folder) {
   }
 }
 
+void CheckOrigin(const Checkpoint& checkpoint, const Experiment& experiment, const std::string& path) {
+  if (checkpoint.experiment.hash() != experiment.hash()) {
+    throw UsageError(
+        fmt::format("--resume: {} is of configuration {:08x}, expected {:08x} (config.textproto and --set); "
+                    "only fields of run may change when a run is resumed",
+                    path, checkpoint.experiment.hash(), experiment.hash()));
+  }
+  if (checkpoint.arithmetic_fingerprint != ArithmeticFingerprint()) {
+    throw UsageError(fmt::format(
+        "--resume: {} was made with arithmetic {:08x}, this program's is {:08x}: the weights would differ in "
+        "their bits; resume with the same build on the same kind of processor",
+        path, checkpoint.arithmetic_fingerprint, ArithmeticFingerprint()));
+  }
+}
+
 }  // namespace
 
 Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings) {
@@ -34,26 +49,12 @@ Resumption ReadResumption(const std::filesystem::path& folder, const Settings& s
                     folder.string()));
   }
   RefuseCompleteRun(folder);
-  Resumption resumption{Experiment::Load(config.string(), settings), CheckpointFolder(folder).ReadLatest()};
-  if (!resumption.checkpoint) {
-    return resumption;
-  }
-  const Checkpoint& checkpoint = *resumption.checkpoint;
-  if (checkpoint.experiment.hash() != resumption.experiment.hash()) {
-    throw UsageError(
-        fmt::format("--resume: the checkpoint in {} is of configuration {:08x}, expected {:08x} (its "
-                    "config.textproto and "
-                    "--set); only fields of run may change when a run is resumed",
-                    folder.string(), checkpoint.experiment.hash(), resumption.experiment.hash()));
-  }
-  if (checkpoint.arithmetic_fingerprint != ArithmeticFingerprint()) {
-    throw UsageError(
-        fmt::format("--resume: the checkpoint in {} was made with arithmetic {:08x}, this program's is "
-                    "{:08x}: the weights "
-                    "would differ in their bits; resume with the same build on the same kind of processor",
-                    folder.string(), checkpoint.arithmetic_fingerprint, ArithmeticFingerprint()));
-  }
-  return resumption;
+  Experiment experiment = Experiment::Load(config.string(), settings);
+  const auto check = [&](const Checkpoint& checkpoint, const std::filesystem::path& path) {
+    CheckOrigin(checkpoint, experiment, path.string());
+  };
+  std::optional<Checkpoint> checkpoint = CheckpointFolder(folder).TakeLatest(check);
+  return {std::move(experiment), std::move(checkpoint)};
 }
 
 }  // namespace fresco

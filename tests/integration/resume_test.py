@@ -3,6 +3,7 @@ import json
 import os
 import random
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -146,10 +147,15 @@ class Resume(FrescoTest):
             pass
         log = disk / "run" / "learner.log"
         wait_until(lambda: "No space left" in log.read_text() or process.poll() is not None, "the full disk")
-        self.assertTrue(list(checkpoints.glob("*.checkpoint")), "the old checkpoint is there")
+        # What a learner that is killed now would leave.
+        shutil.copytree(disk / "run", self.folder / "while-full", ignore=shutil.ignore_patterns("*.tmp*"))
         filler.unlink()
         output, errors = process.communicate(timeout=240)
         self.assertEqual(process.returncode, 0, errors + log.read_text())
+        self.assertEqual(self.crc_of(output), undisturbed["weights_crc32c"])
+        self.assertTrue(self.checkpoints("while-full"), "the old checkpoint is there")
+        output, errors = self.resume("while-full")
+        self.assertNotIn("unusable", errors)
         self.assertEqual(self.crc_of(output), undisturbed["weights_crc32c"])
 
 

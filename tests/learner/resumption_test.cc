@@ -30,9 +30,11 @@ class ResumptionTest : public ::testing::Test {
   ~ResumptionTest() override { std::filesystem::remove_all(directory_); }
 
   /// The bytes of a checkpoint after one more episode.
-  std::string NextCheckpoint() {
+  std::string NextCheckpoint() { return NextCheckpoint(run_.experiment, ArithmeticFingerprint()); }
+  /// Of another configuration or program.
+  std::string NextCheckpoint(const Experiment& experiment, uint32_t fingerprint) {
     run_.Commit(run_.Fly(run_.next()));
-    return SerializeCheckpoint({run_.experiment, ArithmeticFingerprint(), 77, run_.trainer.Save()});
+    return SerializeCheckpoint({experiment, fingerprint, 77, run_.trainer.Save()});
   }
   Path Write(const std::string& content) const {
     const Path path = checkpoints_.PathFor(static_cast<int64_t>(run_.episodes.size()));
@@ -89,6 +91,34 @@ TEST_F(ResumptionTest, TakesTheOneBeforeWhereTheLatestIsTornDamagedForeignOrNewe
   EXPECT_EQ(Taken(), 2);
 }
 
+TEST_F(ResumptionTest, TakesTheOneBeforeWhereTheLatestIsOfAnotherRunOrProgram) {
+  Write(NextCheckpoint());
+  const Experiment other = Experiment::Load((directory_ / "config.textproto").string(), {{"schedule.episodes", "61"}});
+  Write(NextCheckpoint(other, ArithmeticFingerprint()));
+  Write(NextCheckpoint(run_.experiment, ArithmeticFingerprint() ^ 1));
+  EXPECT_EQ(Taken(), 1);
+}
+
+TEST_F(ResumptionTest, KeepsWhatItGoesOnFromRatherThanLaterOnesOfNoUse) {
+  const Path taken = Write(NextCheckpoint());
+  const std::string torn = NextCheckpoint().substr(0, 1000);
+  const Path path = Write(torn);
+  EXPECT_EQ(Taken(), 1);
+  checkpoints_.Prune(1);
+  EXPECT_EQ(checkpoints_.Latest(), std::vector<Path>{taken});
+  EXPECT_EQ(ReadFile(path.string() + ".unusable"), torn);
+}
+
+TEST_F(ResumptionTest, LeavesFilesOfOtherNamesAlone) {
+  const Path path = Write(NextCheckpoint());
+  const Path backup = checkpoints_.PathFor(0).parent_path() / "backup.checkpoint";
+  WriteFileAtomically(backup, NextCheckpoint());
+  EXPECT_EQ(Taken(), 1);
+  checkpoints_.Prune(1);
+  EXPECT_TRUE(std::filesystem::exists(backup));
+  EXPECT_EQ(checkpoints_.Latest(), std::vector<Path>{path});
+}
+
 TEST_F(ResumptionTest, NamesWhatIsWrongWithEachWhereNoneIsWhole) {
   const std::string whole = NextCheckpoint();
   Write(whole.substr(0, 1000));
@@ -109,8 +139,7 @@ TEST_F(ResumptionTest, LetsOnlyTheRunSectionChange) {
 }
 
 TEST_F(ResumptionTest, RefusesACheckpointOfAnotherArithmetic) {
-  run_.Commit(run_.Fly(run_.next()));
-  Write(SerializeCheckpoint({run_.experiment, ArithmeticFingerprint() ^ 1, 77, run_.trainer.Save()}));
+  Write(NextCheckpoint(run_.experiment, ArithmeticFingerprint() ^ 1));
   EXPECT_NE(Refusal().find("same build"), std::string::npos) << Refusal();
 }
 
