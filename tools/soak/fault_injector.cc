@@ -86,6 +86,14 @@ void FaultInjector::EndGuests() {
   guests_.clear();
 }
 
+std::vector<pid_t> FaultInjector::GuestPids() const {
+  std::vector<pid_t> pids;
+  for (const Guest& guest : guests_) {
+    pids.push_back(guest.process->pid());
+  }
+  return pids;
+}
+
 void FaultInjector::NoteGuestEnd(const Guest& guest, int status) {
   // Told to end before its handlers were installed, it ends by the signal itself.
   const bool as_told = guest.told && (status == 0 || status == 128 + SIGTERM ||

@@ -37,6 +37,8 @@ class FaultInjector {
   void Continue(TrainingRun& run);
   /// Sends the guests away and waits for them.
   void EndGuests();
+  /// Of the actors that have joined from outside.
+  std::vector<pid_t> GuestPids() const;
 
   /// The learner reported, at `wall_us`, so many committed orders.
   void NoteProgress(int64_t committed_orders, int64_t wall_us);

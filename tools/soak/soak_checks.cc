@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int64_t kMoreMemoryKib = 32 * 1024;
+constexpr int64_t kMoreMemoryKib = 8 * 1024;
 constexpr int kMoreDescriptors = 4;
 
 double ToMib(int64_t kib) {

@@ -28,7 +28,7 @@ bool IsComplete(const std::filesystem::path& folder);
 /// What a disturbed run has that the undisturbed one has not.
 std::vector<std::string> Differences(const RunFacts& undisturbed, const RunFacts& disturbed);
 
-/// Programs that used more than the undisturbed run's: peak memory beyond 1.25 times and 32 MiB, or more
+/// Programs that used more than the undisturbed run's: peak memory beyond 1.25 times and 8 MiB, or more
 /// than a few descriptors.
 std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByProgram& disturbed);
 

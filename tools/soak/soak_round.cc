@@ -53,7 +53,7 @@ class Round {
     constexpr int64_t kPollUs = 20'000;
     const bool running = run_->Step(kPollUs);
     TakeStatus();
-    watch_.Look(run_->Pids());
+    watch_.Look(Pids());
     if (!running) {
       GoOnOrEnd();
     } else if (injector_) {
@@ -63,6 +63,15 @@ class Round {
       FailAsHung();
     }
     show_(last_status_ ? &*last_status_ : nullptr, injector_ ? injector_->faults().size() : 0);
+  }
+
+  std::vector<pid_t> Pids() const {
+    std::vector<pid_t> pids = run_->Pids();
+    if (injector_) {
+      const std::vector<pid_t> guests = injector_->GuestPids();
+      pids.insert(pids.end(), guests.begin(), guests.end());
+    }
+    return pids;
   }
 
   void TakeStatus() {
