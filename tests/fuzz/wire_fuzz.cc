@@ -1,6 +1,10 @@
 // Decode of every message type. The first byte chooses the type and whether the rest has a trailer of its
-// own or gets the right one here. What decodes must encode to the same bytes again.
+// own or gets the right one here. What decodes must encode to the same bytes again, and looks the same to
+// those who only peek; what nobody signed is not authentic.
+#include "actors/run_announcements.h"
+#include "bus/authenticated_bus.h"
 #include "core/check.h"
+#include "msgs/message_peek.h"
 #include "msgs/order.h"
 #include "msgs/weights_codec.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -29,6 +33,33 @@ void CheckContent(const orders_t& message) {
   }
 }
 
+void CheckContent(const run_t& message) {
+  RunAnnouncements announcements;
+  const auto text = announcements.Add(message);
+  FRESCO_CHECK(!text || message.part_count == 1);
+}
+
+void CheckPeeked(const std::vector<std::byte>& bytes, const transitions_t& message) {
+  const auto header = PeekTransitions(bytes);
+  FRESCO_CHECK(header && header->identity == IdentityOf(message));
+  FRESCO_CHECK(header->transition_count == message.transition_count);
+  FRESCO_CHECK(header->order_index == message.order_index && header->actor_id == message.actor_id);
+}
+
+template <class Message>
+void CheckPeeked(const std::vector<std::byte>& bytes, const Message& message) {
+  const auto identity = PeekIdentity(bytes);
+  FRESCO_CHECK(identity && *identity == IdentityOf(message));
+}
+
+void CheckUntrusted(std::span<const std::byte> bytes) {
+  static const AuthenticationKey key(std::as_bytes(std::span("a key that no input knows")));
+  FRESCO_CHECK(!AuthenticContent(key, "FRESCO_RUN", bytes));
+  PeekType(bytes);
+  PeekIdentity(bytes);
+  PeekTransitions(bytes);
+}
+
 template <class Message>
 void CheckOne(const std::vector<std::byte>& bytes) {
   Message message{};
@@ -39,6 +70,7 @@ void CheckOne(const std::vector<std::byte>& bytes) {
   Encode(message, again);
   FRESCO_CHECK(again == bytes);
   CheckContent(message);
+  CheckPeeked(bytes, message);
 }
 
 constexpr void (*kChecks[])(const std::vector<std::byte>&) = {
@@ -55,6 +87,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     return 0;
   }
   const auto rest = std::as_bytes(std::span(data + 1, size - 1));
+  CheckUntrusted(rest);
   const auto check = kChecks[(data[0] & ~kOwnTrailer) % std::size(kChecks)];
   check((data[0] & kOwnTrailer) != 0 ? std::vector(rest.begin(), rest.end()) : WithTrailer(rest));
   return 0;
