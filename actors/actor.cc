@@ -47,7 +47,7 @@ void Actor::Subscribe(const std::string& channel, Handler handler) {
   auto message = std::make_shared<Message>();
   bus_->Subscribe(channel, [this, handler, message](std::span<const std::byte> bytes) {
     if (!Decode(bytes, *message)) {
-      ++totals_.rejected_messages;
+      ++totals_.rejected.malformed;
       key_mismatch_.Note(bytes);
       return;
     }
@@ -68,7 +68,7 @@ void Actor::HandleRun(const run_t& message) {
   }
   const bool wanted = message.run_id != 0 && (options_.run_id == 0 || options_.run_id == message.run_id);
   if (session_ != nullptr || !wanted) {
-    ++totals_.rejected_messages;
+    ++totals_.rejected.foreign;
   }
   if (!wanted || (session_ != nullptr && !IsRecordingBeside(message.utime))) {
     return;
@@ -125,8 +125,12 @@ bool Actor::IsMine(RunIdentity identity, int64_t utime) {
   if (session_ == nullptr) {
     return false;
   }
-  if (session_->identity != identity || utime < session_->newest_utime - kStaleUs) {
-    ++totals_.rejected_messages;
+  if (session_->identity != identity) {
+    ++totals_.rejected.foreign;
+    return false;
+  }
+  if (utime < session_->newest_utime - kStaleUs) {
+    ++totals_.rejected.stale;
     return false;
   }
   session_->newest_utime = std::max(session_->newest_utime, utime);
@@ -140,7 +144,7 @@ void Actor::HandleOrders(const orders_t& message) {
     return;
   }
   if (message.committed_orders < 0 || message.committed_orders > kLargestIndex) {
-    ++totals_.rejected_messages;
+    ++totals_.rejected.inconsistent;
     return;
   }
   KeepWindow(message.committed_orders);
@@ -153,7 +157,7 @@ void Actor::HandleOrders(const orders_t& message) {
     if (FromWire(wire, order) && order.index < end) {
       TakeOrder(order);
     } else {
-      ++totals_.rejected_messages;
+      ++totals_.rejected.inconsistent;
     }
   }
 }
@@ -199,7 +203,7 @@ void Actor::HandleWeights(NetworkKind kind, const weights_t& message) {
     ++totals_.completed_versions;
     totals_.longest_assembly_us = std::max(totals_.longest_assembly_us, store.longest_assembly_us());
   } else if (arrival == NetworkStore::Arrival::kRejected || arrival == NetworkStore::Arrival::kRestarted) {
-    ++totals_.rejected_messages;
+    ++totals_.rejected.inconsistent;
   }
 }
 

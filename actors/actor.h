@@ -30,6 +30,16 @@ struct ActorOptions {
   std::function<int64_t()> clock_us = MonotonicMicroseconds;  ///< when a message arrives
 };
 
+/// Messages, by cause.
+struct RejectedMessages {
+  int64_t malformed = 0;        ///< not a message of this type, or damaged
+  int64_t foreign = 0;          ///< of another run or configuration
+  int64_t stale = 0;            ///< of the learner, but recorded and sent again
+  int64_t inconsistent = 0;     ///< orders or chunks that contradict the run or each other
+  int64_t unauthenticated = 0;  ///< by the bus
+  int64_t total() const { return malformed + foreign + stale + inconsistent + unauthenticated; }
+};
+
 struct ActorTotals {
   int64_t runs = 0;
   int64_t episodes = 0;
@@ -38,7 +48,7 @@ struct ActorTotals {
   int64_t completed_versions = 0;
   int64_t longest_assembly_us = 0;  ///< of a version, from its first chunk until it was complete
   int64_t received_messages = 0;    ///< of the runs served
-  int64_t rejected_messages = 0;    ///< malformed, of another run, configuration or key, corrupt, stale
+  RejectedMessages rejected = {};
 };
 
 class Actor {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "actors/actor.h"
 
@@ -21,6 +22,20 @@ std::string Ranges(const std::vector<chunk_range_t>& ranges) {
                         range.version);
   }
   return text.empty() ? "none" : text;
+}
+
+std::string Text(const RejectedMessages& rejected) {
+  std::string causes;
+  for (const auto& [count, cause] : {std::pair{rejected.malformed, "malformed"},
+                                     {rejected.foreign, "foreign"},
+                                     {rejected.stale, "stale"},
+                                     {rejected.inconsistent, "inconsistent"},
+                                     {rejected.unauthenticated, "unauthenticated"}}) {
+    if (count > 0) {
+      causes += fmt::format("{}{} {}", causes.empty() ? ": " : ", ", count, cause);
+    }
+  }
+  return fmt::format("{} rejected{}", rejected.total(), causes);
 }
 
 }  // namespace
@@ -46,7 +61,7 @@ actor_status_t Actor::Status(int64_t now_us) {
   status.episodes = totals_.episodes;
   status.transitions = totals_.transitions;
   status.resent_episodes = totals_.resent_episodes;
-  status.rejected_messages = totals().rejected_messages;
+  status.rejected_messages = totals().rejected.total();
   status.transitions_per_s = transitions_per_s_;
   status.weights_latency_ms = static_cast<float>(Milliseconds(totals_.longest_assembly_us));
   status.oldest_open_order = -1;
@@ -77,17 +92,17 @@ void Actor::AddSession(Session& session, int64_t now_us, actor_status_t& status)
 
 ActorTotals Actor::totals() const {
   ActorTotals totals = totals_;
-  totals.rejected_messages += bus_->refused_messages();
+  totals.rejected.unauthenticated = bus_->refused_messages();
   return totals;
 }
 
 std::string Actor::Description() const {
   return fmt::format(
       "actor {:016x}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} versions completed, "
-      "the slowest within {:.1f} ms, {} messages received, {} rejected",
+      "the slowest within {:.1f} ms, {} messages received, {}",
       static_cast<uint64_t>(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
       totals_.resent_episodes, totals_.completed_versions, Milliseconds(totals_.longest_assembly_us),
-      totals_.received_messages, totals().rejected_messages);
+      totals_.received_messages, Text(totals().rejected));
 }
 
 std::string Actor::WaitsFor(const Order& order) const {

@@ -78,6 +78,7 @@ TEST_F(ActorBadInput, IsCountedAndHarmlessWhereBytesAreMalformed) {
   flipped[60] ^= std::byte{4};
   send(flipped);
   EXPECT_EQ(NextStatus().rejected_messages, sent);
+  EXPECT_EQ(actor_.totals().rejected.malformed, sent);
   learner_.SendOrders(Orders(0, 2));
   FlyAll();
   ExpectEpisodes(0, {0, 1});
@@ -94,7 +95,7 @@ TEST_F(ActorBadInput, IsCountedAndHarmlessWhereSoundMessagesAreOfRandomContent) 
     learner_.Send(channels_.weights_target, RandomMessage<weights_t>(stream));  // of this run
   }
   Step();
-  EXPECT_EQ(actor_.totals().rejected_messages, 4 * kRounds);
+  EXPECT_EQ(actor_.totals().rejected.total(), 4 * kRounds);
   learner_.SendOrders(Orders(0, 2));
   FlyAll();
   ExpectEpisodes(0, {0, 1});
@@ -110,7 +111,7 @@ TEST_F(ActorBadInput, IsCountedWhereItWasMadeWithoutTheActorsKey) {
   Step();
   EXPECT_TRUE(actor_.has_run());
   EXPECT_FALSE(actor.has_run());
-  EXPECT_EQ(actor.totals().rejected_messages, static_cast<int64_t>(learner_.RunParts().size()));
+  EXPECT_EQ(actor.totals().rejected.unauthenticated, static_cast<int64_t>(learner_.RunParts().size()));
 }
 
 TEST_F(ActorBadInput, IsCountedAndHarmlessWhereOrdersAreOutOfRange) {
@@ -133,7 +134,7 @@ TEST_F(ActorBadInput, IsCountedAndHarmlessWhereOrdersAreOutOfRange) {
   orders.push_back(OrderTo(kActorId, 4));
   learner_.SendOrders(orders);
   FlyAll();
-  EXPECT_EQ(actor_.totals().rejected_messages, static_cast<int64_t>(lies.size()));
+  EXPECT_EQ(actor_.totals().rejected.inconsistent, static_cast<int64_t>(lies.size()));
   ExpectEpisodes(0, {0, 4});
 }
 

@@ -52,7 +52,7 @@ TEST_F(ActorOrders, OfOtherActorsAreIgnored) {
   learner_.SendOrders({OrderTo(kActorId + 1, 0), OrderTo(kActorId, 1), OrderTo(0, 2)});
   FlyAll();
   ExpectEpisodes(0, {1});
-  EXPECT_EQ(actor_.totals().rejected_messages, 0);
+  EXPECT_EQ(actor_.totals().rejected.total(), 0);
 }
 
 TEST_F(ActorOrders, OfAnotherRunOrConfigurationAreCountedAndIgnored) {
@@ -131,7 +131,7 @@ TEST_F(ActorOrders, OutsideOfTheWindowAreRefused) {
   learner_.SendOrders({OrderTo(kActorId, 1)}, std::numeric_limits<int64_t>::max());
   FlyAll();
   ExpectEpisodes(0, {15});
-  EXPECT_EQ(actor_.totals().rejected_messages, 4);
+  EXPECT_EQ(actor_.totals().rejected.total(), 4);
 }
 
 TEST_F(ActorOrders, ThatWaitedAreForgottenWhereTheWindowHasGoneBack) {

@@ -54,6 +54,7 @@ TEST_F(ActorReplay, OfNetworksDisplacesNoneThatIsHeld) {
   const actor_status_t status = NextStatus();
   EXPECT_EQ(status.held_count, held);
   EXPECT_GT(status.rejected_messages, 0);
+  EXPECT_EQ(actor_.totals().rejected.stale, status.rejected_messages);
 }
 
 TEST_F(ActorReplay, IsToldFromALateMessage) {
@@ -61,7 +62,7 @@ TEST_F(ActorReplay, IsToldFromALateMessage) {
   learner_.SendOrders(Orders(0, 2));
   FlyAll();
   ExpectEpisodes(0, {0, 1});
-  EXPECT_EQ(actor_.totals().rejected_messages, 0);
+  EXPECT_EQ(actor_.totals().rejected.total(), 0);
 }
 
 TEST_F(ActorReplay, IsNotHearingALearnerWhoseClockWasSetBackSoTheActorJoinsAgain) {

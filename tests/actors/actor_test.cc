@@ -48,7 +48,7 @@ TEST_F(ActorTest, ServesARunOnceEveryPartOfItsConfigurationIsHere) {
   learner_.AnnounceRun();  // as every half second
   Step();
   EXPECT_EQ(actor_.totals().runs, 1);
-  EXPECT_EQ(actor_.totals().rejected_messages, 0);
+  EXPECT_EQ(actor_.totals().rejected.total(), 0);
 }
 
 TEST_F(ActorTest, HoldsOnToItsRunWhileAnotherIsAnnounced) {
@@ -56,7 +56,7 @@ TEST_F(ActorTest, HoldsOnToItsRunWhileAnotherIsAnnounced) {
   LearnerDouble other(*bus_, channels_, SmallField(), kRunId + 1);
   other.AnnounceRun();
   EXPECT_EQ(NextStatus().run_id, kRunId);
-  EXPECT_EQ(actor_.totals().rejected_messages, static_cast<int64_t>(other.RunParts().size()));
+  EXPECT_EQ(actor_.totals().rejected.foreign, static_cast<int64_t>(other.RunParts().size()));
 }
 
 TEST_F(ActorTest, LeavesAFinishedRunAndServesTheNext) {
@@ -162,7 +162,7 @@ TEST_F(ActorOfOneRunTest, ServesNoOtherRun) {
   other.AnnounceRun();
   Step();
   EXPECT_FALSE(actor_.has_run());
-  EXPECT_EQ(actor_.totals().rejected_messages, static_cast<int64_t>(other.RunParts().size()));
+  EXPECT_EQ(actor_.totals().rejected.foreign, static_cast<int64_t>(other.RunParts().size()));
   BeginRun();
   EXPECT_EQ(NextStatus().run_id, kRunId);
 }

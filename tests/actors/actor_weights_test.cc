@@ -132,7 +132,7 @@ TEST_F(ActorWeights, WhoseCrcDoesNotHoldAreNeverFlownWith) {
   }
   FlyAll();
   EXPECT_TRUE(learner_.episodes().empty());
-  EXPECT_EQ(actor_.totals().rejected_messages, 1);
+  EXPECT_EQ(actor_.totals().rejected.total(), 1);
   NextStatus();
   EXPECT_EQ(Plain(NextStatus().missing), (Ranges{{0, 4, 0, chunks()}}));
   learner_.SendVersion(kCurrent4, *current_);

@@ -74,7 +74,8 @@ class HostileTraffic(FrescoTest):
         self.assertGreater(bus["rejected_foreign"], 1000)
         self.assertEqual(bus["rejected"], bus["rejected_malformed"] + bus["rejected_foreign"])
         for log in (self.folder / "flooded").glob("actor-*.log"):
-            self.assertGreater(int(re.search(r" (\d+) rejected", log.read_text())[1]), 1000)
+            for cause in ("malformed", "foreign"):
+                self.assertGreater(int(re.search(rf"rejected.* (\d+) {cause}", log.read_text())[1]), 1000)
 
         summary, peaks, _ = self.flooded("flooded-with-key", recorded, "--key-file", self.key())
         self.expect_nothing_but_counts("flooded-with-key", undisturbed, summary, usual, peaks)
