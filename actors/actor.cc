@@ -8,6 +8,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "msgs/current_run.h"
 
 namespace fresco {
 namespace {
@@ -67,10 +68,8 @@ void Actor::HandleRun(const run_t& message) {
     return;
   }
   const bool wanted = message.run_id != 0 && (options_.run_id == 0 || options_.run_id == message.run_id);
-  if (session_ != nullptr || !wanted) {
+  if (!wanted || (session_ != nullptr && !WouldLeaveFor(message))) {
     ++totals_.rejected.foreign;
-  }
-  if (!wanted || (session_ != nullptr && !IsRecordingBeside(message.utime))) {
     return;
   }
   if (message.finished != 0 || message.run_id == refused_run_) {
@@ -81,9 +80,10 @@ void Actor::HandleRun(const run_t& message) {
   }
 }
 
-/// Whether what this actor serves is an old run's recorded messages, by those of a run that goes on now.
-bool Actor::IsRecordingBeside(int64_t other_utime) const {
-  return other_utime > 0 && session_->newest_utime < other_utime - kRecordedRunUs;
+/// Whether the run that is served is a recording, and the other one is not.
+bool Actor::WouldLeaveFor(const run_t& other) const {
+  const int64_t now_utime = options_.wall_clock_us();
+  return IsCurrent(other.utime, now_utime) && !IsCurrent(session_->newest_utime, now_utime);
 }
 
 void Actor::StartSession(const run_t& message, const std::string& text) {
@@ -105,6 +105,11 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
                                    IdentityOf(message).config_hash));
     }
     const int capacity = options_.capacity.value_or(experiment.run().environments_per_actor());
+    if (session_ != nullptr) {
+      spdlog::warn(
+          "leaving run {:016x}: its messages are not of now by this host's clock, those of another run are",
+          static_cast<uint64_t>(session_->identity.run_id));
+    }
     session_ = std::make_unique<Session>(std::move(experiment), IdentityOf(message), capacity);
     session_->last_heard_us = attention_.now_us();
     session_->newest_utime = std::max<int64_t>(0, message.utime);
@@ -113,10 +118,19 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
     spdlog::info("serving run {:016x}, configuration {:08x}, {} environments",
                  static_cast<uint64_t>(message.run_id), IdentityOf(message).config_hash, capacity);
   } catch (const Error& error) {
-    refused_run_ = message.run_id;
-    spdlog::error("run {:016x} on {} can't be served: {}", static_cast<uint64_t>(message.run_id),
-                  channels_.run, error.what());
+    NoteRefusal(message.run_id, error.what());
   }
+}
+
+/// Says it once, and, to whoever floods the bus with runs, now and then.
+void Actor::NoteRefusal(int64_t run_id, const char* reason) {
+  constexpr int64_t kPeriodUs = 10'000'000;
+  if (refused_run_ == 0 || now_us_ >= next_refusal_us_) {
+    spdlog::error("run {:016x} on {} can't be served: {}", static_cast<uint64_t>(run_id), channels_.run,
+                  reason);
+    next_refusal_us_ = now_us_ + kPeriodUs;
+  }
+  refused_run_ = run_id;
 }
 
 /// Counts a message of the run that is served, and refuses all others. A stale one could undo the window or

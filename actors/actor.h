@@ -28,6 +28,7 @@ struct ActorOptions {
   std::string host;
   int32_t pid = 0;
   std::function<int64_t()> clock_us = MonotonicMicroseconds;  ///< when a message arrives
+  std::function<int64_t()> wall_clock_us = WallMicroseconds;  ///< to tell recordings of earlier runs
 };
 
 /// Messages, by cause.
@@ -112,7 +113,8 @@ class Actor {
   actor_status_t Status(int64_t now_us);
   std::string WaitsFor(const Order& order) const;
   bool IsMine(RunIdentity identity, int64_t utime);
-  bool IsRecordingBeside(int64_t other_utime) const;
+  bool WouldLeaveFor(const run_t& other) const;
+  void NoteRefusal(int64_t run_id, const char* reason);
 
   template <class Message, class Handler>
   void Subscribe(const std::string& channel, Handler handler);
@@ -126,7 +128,8 @@ class Actor {
   RunAnnouncements announcements_;
   std::unique_ptr<Session> session_;
   bool run_over_ = false;
-  int64_t refused_run_ = 0;  // a run that this actor can't serve: said once
+  int64_t refused_run_ = 0;  // the last run that this actor can't serve: said once
+  int64_t next_refusal_us_ = 0;
   int64_t now_us_ = 0;
   AttentiveClock attention_;
   int64_t next_sequence_ = 0;  // of the statuses

@@ -38,14 +38,15 @@ class Bus {
 
   /// Calls `handler` for every message of exactly this channel (the name is escaped: LCM reads
   /// channels as regular expressions). Throws UsageError where LCM refuses (a firewall that drops
-  /// multicast), saying what to do. Keeps up to `queue_capacity` messages that wait for Poll. From the first
-  /// call on the bus takes messages of one datagram only, up to 64 KiB: see bus/receive_filter.h.
+  /// multicast; a name that it can't have), saying what to do. Keeps up to `queue_capacity` messages that
+  /// wait for Poll. With udpm, messages of more than one datagram (64 KiB) do not arrive:
+  /// bus/receive_filter.h.
   virtual void Subscribe(const std::string& channel, BusHandler handler,
                          int queue_capacity = kDefaultQueueCapacity) = 0;
 
   /// Calls `handler` for every message of every channel, as it stands on the wire (an authenticated bus
-  /// checks and removes nothing here): for those who record. LCM joins fragments to messages of up to 256 MiB
-  /// here, and believes their headers. Throws UsageError as Subscribe does.
+  /// checks and removes nothing here), also of many datagrams: for those who record. From now on nothing that
+  /// is on the network is kept from LCM on this bus. Throws UsageError as Subscribe does.
   virtual void SubscribeToAll(BusEventHandler handler, int queue_capacity = kDefaultQueueCapacity) = 0;
 
   /// Handles what has arrived, or waits up to `timeout_us` microseconds for the first message; never
@@ -63,7 +64,7 @@ inline constexpr char kDefaultLcmUrl[] = "udpm://239.255.76.67:7667?ttl=0&recv_b
 /// A bus over LCM: udpm://, tcpq:// or memq:// (private to the one object). A udpm URL without
 /// recv_buf_size gets one of 4 MB, one without ttl gets ttl=0. Throws UsageError where the URL does not parse
 /// or the provider can't start (no multicast route, no tcpq server), naming the URL, the cause and
-/// the command that mends it.
+/// the command that mends it; Failure where LCM's socket can't be found or filtered (bus/receive_filter.h).
 std::unique_ptr<Bus> OpenLcmBus(const std::string& url);
 
 }  // namespace fresco

@@ -2,12 +2,15 @@
 #include <lcm/lcm.h>
 #include <poll.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <deque>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "bus/bus.h"
 #include "bus/lcm_url.h"
@@ -39,46 +42,73 @@ std::string Remedy(const std::string& url) {
          "program";
 }
 
+struct LcmDestroyer {
+  void operator()(lcm_t* lcm) const { lcm_destroy(lcm); }
+};
+using Lcm = std::unique_ptr<lcm_t, LcmDestroyer>;
+
+/// With the socket that it receives with, and its own thread reading from it.
+Lcm OpenLcm(const std::string& url) {
+  Lcm lcm(lcm_create(url.c_str()));
+  // With tcpq LCM reports success although nobody answers; there is no descriptor then.
+  if (lcm == nullptr || lcm_get_fileno(lcm.get()) < 0) {
+    throw UsageError(fmt::format("can't open the LCM URL {}: {}", url, Remedy(url)));
+  }
+  return lcm;
+}
+
 class LcmBus : public Bus {
  public:
-  explicit LcmBus(const std::string& url) : url_(NormalizeLcmUrl(url)), lcm_(lcm_create(url_.c_str())) {
-    // With tcpq LCM reports success although nobody answers; there is no descriptor then.
-    if (lcm_ == nullptr || lcm_get_fileno(lcm_) < 0) {
-      const std::string message = fmt::format("can't open the LCM URL {}: {}", url_, Remedy(url_));
-      if (lcm_ != nullptr) {
-        lcm_destroy(lcm_);
+  explicit LcmBus(const std::string& url) : url_(NormalizeLcmUrl(url)) {
+    const auto port = MulticastPort(url_);
+    if (!port) {
+      lcm_ = OpenLcm(url_);
+      return;
+    }
+    static std::mutex opening;  // LCM does not tell which socket is its own: the one that is new
+    const std::lock_guard lock(opening);
+    const std::vector<int> before = ReceivingSockets(*port);
+    lcm_ = OpenLcm(url_);
+    for (const int socket : ReceivingSockets(*port)) {
+      if (std::find(before.begin(), before.end(), socket) == before.end()) {
+        filter_.emplace(socket);
       }
-      throw UsageError(message);
+    }
+    if (!filter_) {
+      throw Failure(
+          fmt::format("{}: expected a new socket of LCM's on UDP port {}, found none", url_, *port));
     }
   }
 
-  ~LcmBus() override { lcm_destroy(lcm_); }
   LcmBus(const LcmBus&) = delete;
   LcmBus& operator=(const LcmBus&) = delete;
 
   bool Publish(const std::string& channel, std::span<const std::byte> message) override {
     const std::lock_guard lock(publish_mutex_);  // LCM's tcpq provider is not thread-safe here
-    return lcm_publish(lcm_, channel.c_str(), message.data(), static_cast<unsigned>(message.size())) == 0;
+    return lcm_publish(lcm_.get(), channel.c_str(), message.data(), static_cast<unsigned>(message.size())) ==
+           0;
   }
 
   void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
+    if (filter_) {
+      filter_->Pass(channel);
+    }
     SubscribeTo(
         EscapeChannel(channel),
         [handler = std::move(handler)](const LcmEvent& event) { handler(event.message); }, queue_capacity);
-    if (const auto port = MulticastPort(url_); port && !drops_fragments_) {
-      DropFragments(*port);  // LCM opens the socket for the first subscription
-      drops_fragments_ = true;
-    }
   }
 
   void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
+    if (filter_) {
+      filter_->PassAll();
+    }
     SubscribeTo(".*", std::move(handler), queue_capacity);
   }
 
   int Poll(int64_t timeout_us, int maximum_messages) override {
     int handled = 0;
     while (handled < maximum_messages && WaitReadable(handled == 0 ? timeout_us : 0)) {
-      if (lcm_handle(lcm_) != 0) {
+      if (lcm_handle(lcm_.get()) != 0) {
         throw Failure("the connection of " + url_ + " was lost");
       }
       ++handled;
@@ -98,7 +128,7 @@ class LcmBus : public Bus {
 
   void SubscribeTo(const std::string& channels, BusEventHandler handler, int queue_capacity) {
     Subscription& subscription = subscriptions_.emplace_back(Subscription{this, std::move(handler)});
-    lcm_subscription_t* raw = lcm_subscribe(lcm_, channels.c_str(), &LcmBus::Dispatch, &subscription);
+    lcm_subscription_t* raw = lcm_subscribe(lcm_.get(), channels.c_str(), &LcmBus::Dispatch, &subscription);
     if (raw == nullptr) {
       throw UsageError(
           fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
@@ -108,7 +138,8 @@ class LcmBus : public Bus {
     lcm_subscription_set_queue_capacity(raw, queue_capacity);
   }
 
-  /// LCM 1.3.1 says that a datagram which ends before its channel's name has -1 bytes of content, or fewer.
+  /// LCM 1.3.1 says that a datagram which ends before its channel's name does has -1 bytes of content, or
+  /// fewer.
   static std::span<const std::byte> Content(const lcm_recv_buf_t& buffer) {
     const bool whole = buffer.data_size <= static_cast<uint32_t>(std::numeric_limits<int32_t>::max());
     return {static_cast<const std::byte*>(buffer.data), whole ? buffer.data_size : 0};
@@ -125,7 +156,7 @@ class LcmBus : public Bus {
 
   bool WaitReadable(int64_t timeout_us) const {
     constexpr int64_t kMicrosecondsPerSecond = 1'000'000;
-    pollfd descriptor{lcm_get_fileno(lcm_), POLLIN, 0};
+    pollfd descriptor{lcm_get_fileno(lcm_.get()), POLLIN, 0};
     if (descriptor.fd < 0) {
       throw Failure("the connection of " + url_ + " was lost");
     }
@@ -135,10 +166,10 @@ class LcmBus : public Bus {
   }
 
   std::string url_;
-  lcm_t* lcm_;
+  Lcm lcm_;
+  std::optional<ReceiveFilter> filter_;  // with udpm
   std::mutex publish_mutex_;
   std::deque<Subscription> subscriptions_;  // stable addresses: LCM holds them
-  bool drops_fragments_ = false;
   std::exception_ptr exception_;
 };
 

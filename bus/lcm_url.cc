@@ -24,12 +24,14 @@ std::optional<int64_t> ToInteger(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-void CheckInteger(const std::string& url, const std::string& name, const std::string& text, int64_t minimum,
-                  int64_t maximum) {
+/// LCM reads numbers as C does (010 is eight): returns this one in decimal.
+std::string CheckInteger(const std::string& url, const std::string& name, const std::string& text,
+                         int64_t minimum, int64_t maximum) {
   const auto value = ToInteger(text);
   if (!value || *value < minimum || *value > maximum) {
     Refuse(url, fmt::format("{}: expected {} to {}, found \"{}\"", name, minimum, maximum, text));
   }
+  return std::to_string(*value);
 }
 
 std::map<std::string, std::string> ParseOptions(const std::string& url, const std::string& text) {
@@ -47,32 +49,34 @@ std::map<std::string, std::string> ParseOptions(const std::string& url, const st
   return options;
 }
 
-void CheckAddress(const std::string& url, const std::string& address, bool multicast) {
+/// Returns the address as LCM gets it.
+std::string CheckAddress(const std::string& url, const std::string& address, bool multicast) {
   const size_t colon = address.rfind(':');
   if (colon == std::string::npos || colon == 0) {
     Refuse(url, fmt::format("expected {}:port, found \"{}\"", multicast ? "group" : "host", address));
   }
-  CheckInteger(url, "port", address.substr(colon + 1), 1, 65535);
+  const std::string port = CheckInteger(url, "port", address.substr(colon + 1), 1, 65535);
   const std::string group = address.substr(0, colon);
   in_addr parsed{};
   if (multicast && (inet_pton(AF_INET, group.c_str(), &parsed) != 1 || (ntohl(parsed.s_addr) >> 28) != 0xE)) {
     Refuse(url, fmt::format("expected a multicast group, 224.0.0.0 to 239.255.255.255, found \"{}\"", group));
   }
+  return group + ":" + port;
 }
 
 std::string NormalizeUdpm(const std::string& url, const std::string& address,
                           const std::string& option_text) {
-  CheckAddress(url, address, true);
+  std::string normalized = "udpm://" + CheckAddress(url, address, true);
   auto options = ParseOptions(url, option_text);
   options.try_emplace("ttl", "0");
   options.try_emplace("recv_buf_size", "4194304");
-  std::string normalized = "udpm://" + address;
   char separator = '?';
-  for (const auto& [name, value] : options) {
+  for (const auto& [name, text] : options) {
+    std::string value;
     if (name == "ttl") {
-      CheckInteger(url, name, value, 0, 255);
+      value = CheckInteger(url, name, text, 0, 255);
     } else if (name == "recv_buf_size") {
-      CheckInteger(url, name, value, 1, int64_t{1} << 30);
+      value = CheckInteger(url, name, text, 1, int64_t{1} << 30);
     } else {
       Refuse(url, fmt::format("unknown option \"{}\"; allowed: ttl, recv_buf_size", name));
     }
@@ -101,10 +105,7 @@ std::string NormalizeLcmUrl(const std::string& url) {
   if (!options.empty() || (scheme == "memq" && !address.empty())) {
     Refuse(url, fmt::format("{}:// takes {}", scheme, scheme == "memq" ? "nothing after it" : "no options"));
   }
-  if (scheme == "tcpq") {
-    CheckAddress(url, address, false);
-  }
-  return url;
+  return scheme == "tcpq" ? "tcpq://" + CheckAddress(url, address, false) : url;
 }
 
 std::optional<uint16_t> MulticastPort(const std::string& url) {

@@ -5,33 +5,37 @@
 #include <linux/filter.h>
 #include <sys/socket.h>
 
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "core/error.h"
 
 namespace fresco {
 namespace {
 
-constexpr uint32_t kWholeMessage = 0x4C433032;  // "LC02"
-constexpr uint32_t kUdpHeaderBytes = 8;         // a UDP socket's filter sees it, too
+constexpr std::string_view kWholeMessage = "LC02";
+constexpr uint32_t kUdpHeaderBytes = 8;  // a UDP socket's filter sees it, too
+constexpr uint32_t kChannelAt = kUdpHeaderBytes + 8;
+constexpr size_t kLongestChannel = 63;
 constexpr uint32_t kAllBytes = 0xFFFFFFFF;
 
 std::vector<int> OpenDescriptors() {
   std::vector<int> descriptors;
-  std::error_code error;  // without /proc: none
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
-    const std::string name = entry.path().filename();
+  std::error_code error;
+  std::filesystem::directory_iterator entry("/proc/self/fd", error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename();
     int descriptor = -1;
     std::from_chars(name.data(), name.data() + name.size(), descriptor);
     descriptors.push_back(descriptor);
+  }
+  if (error) {
+    throw Failure("can't look for LCM's socket in /proc/self/fd: " + error.message() + "; mount /proc");
   }
   return descriptors;
 }
@@ -50,37 +54,72 @@ std::optional<uint16_t> BoundPort(int descriptor) {
   return ntohs(address.sin_port);
 }
 
-void Attach(int descriptor) {
-  std::array<sock_filter, 4> instructions = {{
-      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeaderBytes),  // shorter datagrams end here, dropped
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kWholeMessage, 0, 1),
-      BPF_STMT(BPF_RET | BPF_K, kAllBytes),
-      BPF_STMT(BPF_RET | BPF_K, 0),
-  }};
-  const sock_fprog program = {static_cast<uint16_t>(instructions.size()), instructions.data()};
-  if (setsockopt(descriptor, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof(program)) != 0) {
-    throw Failure(
-        fmt::format("can't keep fragments from LCM's socket: expected a kernel that takes socket filters "
-                    "(SO_ATTACH_FILTER), found: {}",
-                    std::strerror(errno)));
+using Instructions = std::vector<sock_filter>;
+
+/// Goes on where these bytes stand `at` their place, else behind `skipped` further instructions. A datagram
+/// that ends before them is dropped at the byte that it lacks; all before it are the same, so no other
+/// channel's end fits.
+void AddComparison(std::string_view bytes, uint32_t at, size_t skipped, Instructions& program) {
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    const size_t rest = 2 * (bytes.size() - i - 1) + skipped;
+    program.push_back(BPF_STMT(BPF_LD | BPF_B | BPF_ABS, at + static_cast<uint32_t>(i)));
+    program.push_back(
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<uint8_t>(bytes[i]), 0, static_cast<uint8_t>(rest)));
   }
 }
 
 }  // namespace
 
-void DropFragments(uint16_t port) {
-  bool found = false;
+std::vector<int> ReceivingSockets(uint16_t port) {
+  std::vector<int> sockets;
   for (const int descriptor : OpenDescriptors()) {
     if (BoundPort(descriptor) == port) {
-      Attach(descriptor);
-      found = true;
+      sockets.push_back(descriptor);
     }
   }
-  if (!found) {
+  return sockets;
+}
+
+ReceiveFilter::ReceiveFilter(int socket) : socket_(socket) {
+  Attach();
+}
+
+void ReceiveFilter::Pass(const std::string& channel) {
+  if (channel.size() > kLongestChannel || channel.find('\0') != std::string::npos) {
+    throw UsageError(fmt::format("LCM channel \"{}\": expected a name of up to {} bytes, found {}", channel,
+                                 kLongestChannel, channel.size()));
+  }
+  channels_.push_back(channel);
+  if (!passes_all_) {
+    Attach();
+  }
+}
+
+void ReceiveFilter::PassAll() {
+  passes_all_ = true;
+  Attach();
+}
+
+void ReceiveFilter::Attach() const {
+  const sock_filter pass = BPF_STMT(BPF_RET | BPF_K, kAllBytes);
+  const sock_filter drop = BPF_STMT(BPF_RET | BPF_K, 0);
+  Instructions instructions;
+  if (passes_all_) {
+    instructions.push_back(pass);
+  }
+  for (const std::string& channel : channels_) {
+    const std::string_view ended(channel.c_str(), channel.size() + 1);
+    AddComparison(kWholeMessage, kUdpHeaderBytes, 2 * ended.size() + 1, instructions);
+    AddComparison(ended, kChannelAt, 1, instructions);
+    instructions.push_back(pass);
+  }
+  instructions.push_back(drop);
+  const sock_fprog program = {static_cast<uint16_t>(instructions.size()), instructions.data()};
+  if (setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof(program)) != 0) {
     throw Failure(
-        fmt::format("can't keep fragments from LCM: expected its socket, on UDP port {}, among those in "
-                    "/proc/self/fd, found none; is /proc mounted?",
-                    port));
+        fmt::format("can't filter what LCM receives on {} channels: expected a kernel that takes socket "
+                    "filters (SO_ATTACH_FILTER), found: {}",
+                    channels_.size(), std::strerror(errno)));
   }
 }
 

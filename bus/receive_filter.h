@@ -1,16 +1,40 @@
-// Keeps LCM's fragments from a process. Fresco's messages are one datagram each; LCM also joins fragments
-// ("LC03") to messages of up to 256 MiB, and LCM 1.3.1 writes outside its memory where a fragment's header
-// lies.
+// Keeps from a process whatever LCM would read wrongly or for nothing. LCM 1.3.1 writes outside its memory
+// where the header of a fragment ("LC03") lies, joins fragments to messages of up to 256 MiB, and remembers
+// every channel name that it ever saw. Fresco's messages are one datagram each, on channels that are known.
+//
+// Used by one thread, while LCM's own reads from the socket.
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace fresco {
 
-/// Has the kernel drop what is not a whole LCM message in one datagram ("LC02") on every socket with which
-/// this process receives on the UDP port `port`, before LCM reads it. The kernel counts these with the
-/// datagrams that found no room (/proc/net/udp). Again does no harm. Throws Failure where there is no such
-/// socket, or the kernel refuses.
-void DropFragments(uint16_t port);
+/// The sockets with which this process receives on the UDP port `port`. Throws Failure where /proc/self/fd
+/// can't be read.
+std::vector<int> ReceivingSockets(uint16_t port);
+
+/// What the kernel hands to one UDP socket that LCM reads; the rest it drops, and counts with the datagrams
+/// that found no room (/proc/net/udp). All throw Failure where the kernel refuses.
+class ReceiveFilter {
+ public:
+  /// From now on nothing passes. `socket` stays open for longer than the filter is used.
+  explicit ReceiveFilter(int socket);
+
+  /// Whole messages ("LC02") of exactly this channel pass, too. Throws UsageError where LCM has no channel of
+  /// such a name: longer than 63 bytes, or with a zero byte.
+  void Pass(const std::string& channel);
+
+  /// Everything passes, fragments too, whatever LCM makes of it; Pass changes nothing afterwards.
+  void PassAll();
+
+ private:
+  void Attach() const;
+
+  int socket_;
+  bool passes_all_ = false;
+  std::vector<std::string> channels_;
+};
 
 }  // namespace fresco

@@ -23,12 +23,15 @@ bool IsCheckpointName(const std::filesystem::path& path) {
 }
 
 void SetAside(const std::filesystem::path& path) {
+  const std::filesystem::path aside = path.string() + kUnusable;
   std::error_code error;
-  std::filesystem::rename(path, path.string() + kUnusable, error);
+  std::filesystem::rename(path, aside, error);
   if (error) {
-    throw Failure(fmt::format("can't rename {} to {}{}: {}", path.string(), path.filename().string(),
-                              kUnusable, error.message()));
+    throw Failure(
+        fmt::format("can't rename {} to {}: {}; it has to make room for the checkpoints to come, remove it",
+                    path.string(), aside.filename().string(), error.message()));
   }
+  spdlog::warn("renamed {} to {}", path.string(), aside.filename().string());
 }
 
 }  // namespace
@@ -67,25 +70,32 @@ void CheckpointFolder::Prune(int kept) const {
 
 std::optional<Checkpoint> CheckpointFolder::TakeLatest(const Check& check) const {
   const std::vector<std::filesystem::path> paths = Latest();
-  std::vector<std::string> problems;  // one for each that is later
+  std::vector<std::string> problems;  // one for each that is later than the one taken
+  std::vector<std::filesystem::path> unusable;
   std::optional<Checkpoint> taken;
   for (size_t i = 0; i < paths.size() && !taken; ++i) {
+    std::optional<std::string> content;
     try {
-      Checkpoint checkpoint = ParseCheckpoint(ReadFile(paths[i]), paths[i].string());
+      content = ReadFile(paths[i]);
+      Checkpoint checkpoint = ParseCheckpoint(*content, paths[i].string());
       check(checkpoint, paths[i]);
       taken = std::move(checkpoint);
     } catch (const Error& error) {
       problems.emplace_back(error.what());
+      if (content) {  // one that can't be read may be whole
+        unusable.push_back(paths[i]);
+      }
     }
   }
   if (!taken && !paths.empty()) {
     throw UsageError(fmt::format("{}: none of its {} checkpoints can be used:\n  {}", directory_.string(),
                                  paths.size(), fmt::join(problems, "\n  ")));
   }
-  for (size_t later = 0; later < problems.size(); ++later) {
-    SetAside(paths[later]);
-    spdlog::warn("{}; going on from {} instead; renamed to {}{}", problems[later],
-                 paths[problems.size()].filename().string(), paths[later].filename().string(), kUnusable);
+  for (const std::string& problem : problems) {
+    spdlog::warn("{}; going on from {} instead", problem, paths[problems.size()].filename().string());
+  }
+  for (const std::filesystem::path& path : unusable) {
+    SetAside(path);
   }
   return taken;
 }

@@ -1,5 +1,5 @@
 // The checkpoints of a run's folder: DIR/checkpoints/ORDERS.checkpoint (twelve digits), the last few kept.
-// Writing is the file writer's work; reading takes the latest one of use. Files of other names are none of
+// Writing is the file writer's work; reading takes the latest usable one. Files of other names are none of
 // its business.
 #pragma once
 
@@ -31,13 +31,13 @@ class CheckpointFolder {
   /// Every checkpoint, latest first.
   std::vector<std::filesystem::path> Latest() const;
 
-  /// Throws UsageError with the reason where a whole checkpoint, read from the file, is of no use.
+  /// Throws UsageError with the reason where a whole checkpoint, read from the file, can't be used.
   using Check = std::function<void(const Checkpoint&, const std::filesystem::path&)>;
 
-  /// The latest one that is whole and passes the check. Later ones are renamed to NAME.unusable, so that they
-  /// count as none of those that Prune keeps, and the log says what is wrong with them. None: there is no
-  /// checkpoint at all. Throws UsageError where there are some and none is of use. The caller holds the
-  /// folder's lock.
+  /// The latest one that is whole and passes the check. Later ones that are not or do not are renamed to
+  /// NAME.unusable (in place of an older one of that name), so that they count as none of those that Prune
+  /// keeps; the log says what is wrong with them. None: there is no checkpoint at all. Throws UsageError
+  /// where there are some and none is usable; then nothing is renamed. The caller holds the folder's lock.
   std::optional<Checkpoint> TakeLatest(const Check& check) const;
 
  private:

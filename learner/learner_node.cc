@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "core/clock.h"
+#include "msgs/current_run.h"
 #include "msgs/scenario_codec.h"
 
 namespace fresco {
@@ -196,14 +197,18 @@ void LearnerNode::HandleRun(const run_t& message) {
     return;
   }
   Reject(&BusCounters::rejected_foreign);
-  if (message.finished != 0 || message.utime < WallMicroseconds() - kRecordedRunUs) {
+  if (message.finished != 0) {
     return;
   }
-  if (foreign_run_ == 0) {  // once: whoever floods the bus with runs is not to fill the log
-    spdlog::warn("another run, {:016x}, is on {}: it does no harm, but shares the bandwidth",
-                 static_cast<uint64_t>(message.run_id), channels_.run);
+  const bool current = IsCurrent(message.utime, WallMicroseconds());
+  if (!warned_of_foreign_run_) {  // once: whoever floods the bus with runs is not to fill the log
+    warned_of_foreign_run_ = true;
+    spdlog::warn(
+        "{}, {:016x}, is on {}: it does no harm, but shares the bandwidth",
+        current ? "another run" : "a recording of a run (or a run whose clock differs from this host's)",
+        static_cast<uint64_t>(message.run_id), channels_.run);
   }
-  foreign_run_ = message.run_id;
+  foreign_run_ = current ? message.run_id : foreign_run_;
 }
 
 void LearnerNode::Step() {

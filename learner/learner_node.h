@@ -65,7 +65,8 @@ class LearnerNode {
   double StarvedSeconds() const;
   /// For people, a few lines: where the run stands, actors and their orders, networks, counters.
   std::string StateText() const;
-  /// Set as soon as another learner was heard on the same channels: the run that it announces.
+  /// Set as soon as another learner was heard on the same channels, with a time of now: the run that it
+  /// announces.
   int64_t foreign_run() const;
 
  private:
@@ -118,6 +119,7 @@ class LearnerNode {
   AttentiveClock clock_;          // of everything that is judged by time here
   int64_t waiting_since_us_ = 0;  // the trainer, for a result; 0: it does not wait
   int64_t foreign_run_ = 0;
+  bool warned_of_foreign_run_ = false;
   bool announced_ = false;  // this run, by this node
 
   // The network thread's own.

@@ -21,7 +21,7 @@ inline constexpr int64_t kResumePatienceUs = 5'000'000;
 /// Reads the folder of an incomplete run; the caller holds its lock. The settings may change `run` only.
 /// Takes the latest checkpoint that is whole, of this configuration and of this program's arithmetic, and
 /// renames later ones (learner/checkpoint_folder.h). Throws UsageError where the folder holds no run or a
-/// complete one, or has checkpoints of which none is of use.
+/// complete one, or has checkpoints of which none is usable.
 Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings);
 
 }  // namespace fresco

@@ -34,10 +34,6 @@ inline constexpr size_t kReservedTrailerBytes = 48;
 inline constexpr size_t kTrailerBytes = sizeof(uint32_t);
 inline constexpr size_t kMaximumEncodedBytes = kMaximumMessageBytes - kReservedTrailerBytes;
 
-/// So much older than now, or than another run's messages, an announcement of a run is a recorded one that
-/// somebody sends again; hosts whose clocks differ by less are told apart from that.
-inline constexpr int64_t kRecordedRunUs = 10'000'000;
-
 inline constexpr int kMaximumOrdersPerMessage = 27;
 inline constexpr int kMaximumPartBytes = 1100;
 inline constexpr int kMaximumParts = 1024;

@@ -1,6 +1,7 @@
-// Recorded messages of the same run that somebody sends again, while the run goes on.
+// Recorded messages that somebody sends again: of the same run while it goes on, and of an earlier one.
 #include <limits>
 
+#include "msgs/current_run.h"
 #include "tests/actors/actor_fixture.h"
 
 namespace fresco {
@@ -12,6 +13,7 @@ constexpr int64_t kNow = 1'000'000 * kSecondUs;
 class ActorReplay : public ActorTest {
  protected:
   void SetUp() override {
+    wall_us_ = kNow;
     learner_.SetClock(kNow);
     BeginRun();
   }
@@ -83,8 +85,9 @@ TEST_F(ActorReplay, IsNotHearingALearnerWhoseClockWasSetBackSoTheActorJoinsAgain
 }
 
 TEST_F(ActorReplay, OfAnEarlierRunDoesNotKeepAnActorFromTheRunThatGoesOn) {
+  wall_us_ = kNow + kClockToleranceUs + 1;  // what learner_ sends is of before
   LearnerDouble live(*bus_, channels_, experiment_, kRunId + 1);
-  live.SetClock(kNow + kRecordedRunUs + 1);
+  live.SetClock(wall_us_ + kClockToleranceUs);
   for (int i = 0; i < 3; ++i) {
     learner_.AnnounceRun();  // the same packets again and again
     live.AnnounceRun();
@@ -94,20 +97,33 @@ TEST_F(ActorReplay, OfAnEarlierRunDoesNotKeepAnActorFromTheRunThatGoesOn) {
   EXPECT_EQ(actor_.totals().runs, 2);
 }
 
-TEST_F(ActorReplay, IsToldFromARunBesideWhoseClockIsAhead) {
-  LearnerDouble beside(*bus_, channels_, experiment_, kRunId + 1);
-  beside.SetClock(kNow + kRecordedRunUs);
-  beside.AnnounceRun();
-  EXPECT_EQ(NextStatus().run_id, kRunId);
-}
-
-TEST_F(ActorReplay, OfARunThatCantBeServedDoesNotEndTheOneThatIs) {
-  LearnerDouble liar(*bus_, channels_, experiment_, kRunId + 1);
-  for (const int64_t utime : {std::numeric_limits<int64_t>::max(), std::numeric_limits<int64_t>::min()}) {
-    liar.SetClock(utime);
-    liar.AnnounceRun([](run_t& part) { part.config_hash ^= 1; });
+TEST_F(ActorReplay, IsToldFromARunWhoseHostsClockIsAnother) {
+  for (const int64_t later_us : {-kClockToleranceUs, kClockToleranceUs}) {
+    wall_us_ = kNow + later_us;
+    LearnerDouble beside(*bus_, channels_, experiment_, kRunId + 1);
+    beside.SetClock(wall_us_);
+    beside.AnnounceRun();
     EXPECT_EQ(NextStatus().run_id, kRunId);
   }
+}
+
+TEST_F(ActorReplay, OfNoEarlierRunIsLeftForAnother) {
+  wall_us_ = kNow + kClockToleranceUs + 1;
+  LearnerDouble earlier(*bus_, channels_, experiment_, kRunId + 1);
+  for (const int64_t utime : {wall_us_ - kClockToleranceUs - 1, wall_us_ + kClockToleranceUs + 1,
+                              std::numeric_limits<int64_t>::max(), std::numeric_limits<int64_t>::min()}) {
+    earlier.SetClock(utime);
+    earlier.AnnounceRun();
+    EXPECT_EQ(NextStatus().run_id, kRunId);
+  }
+}
+
+TEST_F(ActorReplay, IsNotLeftForARunThatCantBeServed) {
+  wall_us_ = kNow + kClockToleranceUs + 1;
+  LearnerDouble liar(*bus_, channels_, experiment_, kRunId + 1);
+  liar.SetClock(wall_us_);
+  liar.AnnounceRun([](run_t& part) { part.config_hash ^= 1; });
+  EXPECT_EQ(NextStatus().run_id, kRunId);
 }
 
 }  // namespace

@@ -17,9 +17,18 @@ TEST(LcmUrl, GetsTheDefaultsThatItDoesNotName) {
   EXPECT_EQ(NormalizeLcmUrl("udpm://224.0.0.1:1?ttl=1"), "udpm://224.0.0.1:1?recv_buf_size=4194304&ttl=1");
   EXPECT_EQ(NormalizeLcmUrl("udpm://239.1.1.1:65535?recv_buf_size=9&ttl=255"),
             "udpm://239.1.1.1:65535?recv_buf_size=9&ttl=255");
+  EXPECT_EQ(NormalizeLcmUrl("udpm://239.1.1.1:07667?recv_buf_size=010&ttl=01"),  // no octal numbers
+            "udpm://239.1.1.1:7667?recv_buf_size=10&ttl=1");
+  EXPECT_EQ(NormalizeLcmUrl("tcpq://localhost:0010"), "tcpq://localhost:10");
   EXPECT_EQ(NormalizeLcmUrl("memq://"), "memq://");
   EXPECT_EQ(NormalizeLcmUrl("tcpq://localhost:7700"), "tcpq://localhost:7700");
   EXPECT_NO_THROW(NormalizeLcmUrl(kDefaultLcmUrl));
+}
+
+TEST(LcmUrl, HasAPortWhereItIsMulticast) {
+  EXPECT_EQ(MulticastPort(NormalizeLcmUrl("udpm://239.255.76.67:17667")), 17667);
+  EXPECT_EQ(MulticastPort(NormalizeLcmUrl("tcpq://localhost:7700")), std::nullopt);
+  EXPECT_EQ(MulticastPort("memq://"), std::nullopt);
 }
 
 TEST(LcmUrl, IsRefusedWithItsOffendingPartAndAnExample) {

@@ -36,7 +36,8 @@ void CheckContent(const orders_t& message) {
 void CheckContent(const run_t& message) {
   RunAnnouncements announcements;
   const auto text = announcements.Add(message);
-  FRESCO_CHECK(!text || message.part_count == 1);
+  FRESCO_CHECK(!text ||
+               (message.part_count == 1 && *text == std::string(message.part.begin(), message.part.end())));
 }
 
 void CheckPeeked(const std::vector<std::byte>& bytes, const transitions_t& message) {

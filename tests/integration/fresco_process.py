@@ -61,7 +61,8 @@ class FrescoTest(unittest.TestCase):
 
     def start_command(self, command, **options):
         """A process that does not outlive a test that fails."""
-        process = Process(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        process = Process(command, text=True, **(streams | options))
 
         def end():
             if process.returncode is None:

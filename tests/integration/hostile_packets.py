@@ -119,6 +119,7 @@ def hostile_packets(recorded, run_id, seed=1):
         "cut short": truncated,
         "absurd count, CRC holds": lambda: changed(run=run_id, counts=absurd),
         "absurd count, CRC does not": lambda: changed(run=run_id, counts=absurd, trailer=False),
+        "random channel": lambda: packet(f"{draw.randrange(2**64):X}", b""),
         "other channel": lambda: packet(draw.choice(("OTHER", "FRESCO_", "FRESCO_RUNS", "F" * 90)), draw.randbytes(99)),
         "a channel of zeros": lambda: packet("", bytes(80)),  # what LCM reads behind the end of the next one
         "a channel without its end": lambda: packet("FRESCO_" + draw.choice(CHANNELS), b"")[:-1],

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/clock.h"
+#include "msgs/current_run.h"
 #include "tests/learner/literal_run.h"
 
 namespace fresco {
@@ -91,18 +92,20 @@ TEST_F(LearnerNodeTest, CountsTheAnnouncementsOfOtherRunsOnly) {
   EXPECT_EQ(node_.counters().rejected, 2);
 }
 
-TEST_F(LearnerNodeTest, TakesARecordedAnnouncementForNoRunThatGoesOn) {
+TEST_F(LearnerNodeTest, TakesAnAnnouncementThatIsNotOfNowForNoRunThatGoesOn) {
+  constexpr int64_t kSecondUs = 1'000'000;
   for (const int64_t run_id : {kRunId, kRunId + 1}) {  // its own of before it was resumed, another's
-    run_t recorded{};
-    recorded.run_id = run_id;
-    recorded.utime = WallMicroseconds() - kRecordedRunUs - 1;
-    std::vector<std::byte> bytes;
-    Encode(recorded, bytes);
-    bus_->Publish(channels_.run, bytes);
+    for (const int64_t later_us : {-kClockToleranceUs - kSecondUs, kClockToleranceUs + kSecondUs}) {
+      run_t recorded{};
+      recorded.run_id = run_id;
+      recorded.utime = WallMicroseconds() + later_us;
+      std::vector<std::byte> bytes;
+      Encode(recorded, bytes);
+      bus_->Publish(channels_.run, bytes);
+    }
   }
-  while (node_.counters().rejected_foreign < 2) {
-    bus_->Poll(1'000);
-  }
+  EXPECT_EQ(bus_->Poll(1'000'000), 4);
+  EXPECT_EQ(node_.counters().rejected_foreign, 4);
   EXPECT_EQ(node_.foreign_run(), 0);
 }
 

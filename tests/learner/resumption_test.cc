@@ -93,13 +93,14 @@ TEST_F(ResumptionTest, TakesTheOneBeforeWhereTheLatestIsTornDamagedForeignOrNewe
 
 TEST_F(ResumptionTest, TakesTheOneBeforeWhereTheLatestIsOfAnotherRunOrProgram) {
   Write(NextCheckpoint());
-  const Experiment other = Experiment::Load((directory_ / "config.textproto").string(), {{"schedule.episodes", "61"}});
+  const Experiment other =
+      Experiment::Load((directory_ / "config.textproto").string(), {{"schedule.episodes", "61"}});
   Write(NextCheckpoint(other, ArithmeticFingerprint()));
   Write(NextCheckpoint(run_.experiment, ArithmeticFingerprint() ^ 1));
   EXPECT_EQ(Taken(), 1);
 }
 
-TEST_F(ResumptionTest, KeepsWhatItGoesOnFromRatherThanLaterOnesOfNoUse) {
+TEST_F(ResumptionTest, KeepsWhatItGoesOnFromRatherThanLaterOnesThatAreUnusable) {
   const Path taken = Write(NextCheckpoint());
   const std::string torn = NextCheckpoint().substr(0, 1000);
   const Path path = Write(torn);
