@@ -166,11 +166,11 @@ class LcmBus : public Bus {
   }
 
   std::string url_;
-  Lcm lcm_;
-  std::optional<ReceiveFilter> filter_;  // with udpm
   std::mutex publish_mutex_;
   std::deque<Subscription> subscriptions_;  // stable addresses: LCM holds them
   std::exception_ptr exception_;
+  Lcm lcm_;
+  std::optional<ReceiveFilter> filter_;  // with udpm
 };
 
 }  // namespace
