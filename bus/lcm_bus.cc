@@ -32,6 +32,15 @@ std::string EscapeChannel(const std::string& channel) {
   return escaped;
 }
 
+void CheckChannel(const std::string& channel) {
+  constexpr size_t kLongest = 63;  // LCM's
+  if (channel.size() > kLongest || channel.find('\0') != std::string::npos) {
+    throw UsageError(fmt::format(
+        "LCM channel \"{}\": expected a name of up to {} bytes without a zero byte, found {} bytes", channel,
+        kLongest, channel.size()));
+  }
+}
+
 std::string Remedy(const std::string& url) {
   if (url.starts_with("tcpq")) {
     return "no LCM TCP server answers there; start one with: java -cp /usr/share/java/lcm.jar "
@@ -65,19 +74,22 @@ class LcmBus : public Bus {
       lcm_ = OpenLcm(url_);
       return;
     }
-    static std::mutex opening;  // LCM does not tell which socket is its own: the one that is new
-    const std::lock_guard lock(opening);
+    const std::lock_guard lock(Sockets());
     const std::vector<int> before = ReceivingSockets(*port);
     lcm_ = OpenLcm(url_);
-    for (const int socket : ReceivingSockets(*port)) {
-      if (std::find(before.begin(), before.end(), socket) == before.end()) {
-        filter_.emplace(socket);
-      }
+    std::vector<int> opened = ReceivingSockets(*port);
+    std::erase_if(
+        opened, [&](int socket) { return std::find(before.begin(), before.end(), socket) != before.end(); });
+    if (opened.size() != 1) {
+      throw Failure(fmt::format("{}: expected one new socket on UDP port {}, LCM's own, found {}", url_,
+                                *port, opened.size()));
     }
-    if (!filter_) {
-      throw Failure(
-          fmt::format("{}: expected a new socket of LCM's on UDP port {}, found none", url_, *port));
-    }
+    filter_.emplace(opened.front());
+  }
+
+  ~LcmBus() override {
+    const std::lock_guard lock(Sockets());
+    lcm_.reset();
   }
 
   LcmBus(const LcmBus&) = delete;
@@ -90,6 +102,7 @@ class LcmBus : public Bus {
   }
 
   void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
+    CheckChannel(channel);
     if (filter_) {
       filter_->Pass(channel);
     }
@@ -125,6 +138,12 @@ class LcmBus : public Bus {
     BusEventHandler handler;
     int64_t received = 0;
   };
+
+  /// LCM does not tell which socket is its own: held while a bus opens or closes one.
+  static std::mutex& Sockets() {
+    static std::mutex sockets;
+    return sockets;
+  }
 
   void SubscribeTo(const std::string& channels, BusEventHandler handler, int queue_capacity) {
     Subscription& subscription = subscriptions_.emplace_back(Subscription{this, std::move(handler)});

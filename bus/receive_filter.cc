@@ -18,10 +18,9 @@
 namespace fresco {
 namespace {
 
-constexpr std::string_view kWholeMessage = "LC02";
-constexpr uint32_t kUdpHeaderBytes = 8;  // a UDP socket's filter sees it, too
+constexpr uint32_t kWholeMessage = 0x4C433032;  // "LC02"
+constexpr uint32_t kUdpHeaderBytes = 8;         // a UDP socket's filter sees it, too
 constexpr uint32_t kChannelAt = kUdpHeaderBytes + 8;
-constexpr size_t kLongestChannel = 63;
 constexpr uint32_t kAllBytes = 0xFFFFFFFF;
 
 std::vector<int> OpenDescriptors() {
@@ -56,16 +55,48 @@ std::optional<uint16_t> BoundPort(int descriptor) {
 
 using Instructions = std::vector<sock_filter>;
 
-/// Goes on where these bytes stand `at` their place, else behind `skipped` further instructions. A datagram
-/// that ends before them is dropped at the byte that it lacks; all before it are the same, so no other
-/// channel's end fits.
-void AddComparison(std::string_view bytes, uint32_t at, size_t skipped, Instructions& program) {
-  for (size_t i = 0; i < bytes.size(); ++i) {
-    const size_t rest = 2 * (bytes.size() - i - 1) + skipped;
-    program.push_back(BPF_STMT(BPF_LD | BPF_B | BPF_ABS, at + static_cast<uint32_t>(i)));
-    program.push_back(
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, static_cast<uint8_t>(bytes[i]), 0, static_cast<uint8_t>(rest)));
+/// The load of so many bytes, and what it loads: a word, a half or a byte, whichever fits.
+struct Load {
+  uint16_t size_code;
+  uint32_t bytes;
+};
+
+Load LargestLoad(size_t bytes) {
+  return bytes >= 4 ? Load{BPF_W, 4} : bytes >= 2 ? Load{BPF_H, 2} : Load{BPF_B, 1};
+}
+
+uint32_t BigEndian(std::string_view bytes) {
+  uint32_t value = 0;
+  for (const char byte : bytes) {
+    value = value << 8 | static_cast<uint8_t>(byte);
   }
+  return value;
+}
+
+/// Ends the program with everything passing where the channel, with its end, stands at its place; goes on
+/// behind where it does not. Few loads: the kernel makes a dozen instructions of each and has little room
+/// (net.core.optmem_max).
+void AddChannel(const std::string& channel, Instructions& program) {
+  const std::string_view ended(channel.c_str(), channel.size() + 1);
+  Instructions block;
+  block.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0));  // a load behind the datagram's end would drop it
+  block.push_back(
+      BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kChannelAt + static_cast<uint32_t>(ended.size()), 0, 0));
+  for (size_t i = 0; i < ended.size();) {
+    const Load load = LargestLoad(ended.size() - i);
+    block.push_back(BPF_STMT(static_cast<uint16_t>(BPF_LD | load.size_code | BPF_ABS),
+                             kChannelAt + static_cast<uint32_t>(i)));
+    block.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, BigEndian(ended.substr(i, load.bytes)), 0, 0));
+    i += load.bytes;
+  }
+  block.push_back(BPF_STMT(BPF_RET | BPF_K, kAllBytes));
+  for (size_t i = 0; i < block.size(); ++i) {
+    if (BPF_CLASS(block[i].code) == BPF_JMP) {
+      block[i].jf = static_cast<uint8_t>(block.size() - i -
+                                         1);  // behind the block; 64 bytes make 36 instructions at most
+    }
+  }
+  program.insert(program.end(), block.begin(), block.end());
 }
 
 }  // namespace
@@ -85,14 +116,8 @@ ReceiveFilter::ReceiveFilter(int socket) : socket_(socket) {
 }
 
 void ReceiveFilter::Pass(const std::string& channel) {
-  if (channel.size() > kLongestChannel || channel.find('\0') != std::string::npos) {
-    throw UsageError(fmt::format("LCM channel \"{}\": expected a name of up to {} bytes, found {}", channel,
-                                 kLongestChannel, channel.size()));
-  }
   channels_.push_back(channel);
-  if (!passes_all_) {
-    Attach();
-  }
+  Attach();
 }
 
 void ReceiveFilter::PassAll() {
@@ -101,25 +126,27 @@ void ReceiveFilter::PassAll() {
 }
 
 void ReceiveFilter::Attach() const {
-  const sock_filter pass = BPF_STMT(BPF_RET | BPF_K, kAllBytes);
   const sock_filter drop = BPF_STMT(BPF_RET | BPF_K, 0);
   Instructions instructions;
   if (passes_all_) {
-    instructions.push_back(pass);
+    instructions.push_back(BPF_STMT(BPF_RET | BPF_K, kAllBytes));
+  } else {
+    instructions.push_back(
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeaderBytes));  // shorter ones end here, dropped
+    instructions.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kWholeMessage, 1, 0));
+    instructions.push_back(drop);
+    for (const std::string& channel : channels_) {
+      AddChannel(channel, instructions);
+    }
+    instructions.push_back(drop);
   }
-  for (const std::string& channel : channels_) {
-    const std::string_view ended(channel.c_str(), channel.size() + 1);
-    AddComparison(kWholeMessage, kUdpHeaderBytes, 2 * ended.size() + 1, instructions);
-    AddComparison(ended, kChannelAt, 1, instructions);
-    instructions.push_back(pass);
-  }
-  instructions.push_back(drop);
   const sock_fprog program = {static_cast<uint16_t>(instructions.size()), instructions.data()};
   if (setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof(program)) != 0) {
-    throw Failure(
-        fmt::format("can't filter what LCM receives on {} channels: expected a kernel that takes socket "
-                    "filters (SO_ATTACH_FILTER), found: {}",
-                    channels_.size(), std::strerror(errno)));
+    throw Failure(fmt::format(
+        "can't filter what LCM receives, {} channels: expected a kernel that takes socket filters "
+        "of {} instructions (SO_ATTACH_FILTER), found: {}{}",
+        channels_.size(), instructions.size(), std::strerror(errno),
+        errno == ENOMEM ? "; raise it with: sysctl net.core.optmem_max=131072" : ""));
   }
 }
 

@@ -22,8 +22,8 @@ class ReceiveFilter {
   /// From now on nothing passes. `socket` stays open for longer than the filter is used.
   explicit ReceiveFilter(int socket);
 
-  /// Whole messages ("LC02") of exactly this channel pass, too. Throws UsageError where LCM has no channel of
-  /// such a name: longer than 63 bytes, or with a zero byte.
+  /// Whole messages ("LC02") of exactly this channel pass, too. A name that LCM can have: up to 63 bytes, no
+  /// zero.
   void Pass(const std::string& channel);
 
   /// Everything passes, fragments too, whatever LCM makes of it; Pass changes nothing afterwards.

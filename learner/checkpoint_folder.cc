@@ -71,31 +71,23 @@ void CheckpointFolder::Prune(int kept) const {
 std::optional<Checkpoint> CheckpointFolder::TakeLatest(const Check& check) const {
   const std::vector<std::filesystem::path> paths = Latest();
   std::vector<std::string> problems;  // one for each that is later than the one taken
-  std::vector<std::filesystem::path> unusable;
   std::optional<Checkpoint> taken;
   for (size_t i = 0; i < paths.size() && !taken; ++i) {
-    std::optional<std::string> content;
     try {
-      content = ReadFile(paths[i]);
-      Checkpoint checkpoint = ParseCheckpoint(*content, paths[i].string());
+      Checkpoint checkpoint = ParseCheckpoint(ReadFile(paths[i]), paths[i].string());
       check(checkpoint, paths[i]);
       taken = std::move(checkpoint);
     } catch (const Error& error) {
       problems.emplace_back(error.what());
-      if (content) {  // one that can't be read may be whole
-        unusable.push_back(paths[i]);
-      }
     }
   }
   if (!taken && !paths.empty()) {
     throw UsageError(fmt::format("{}: none of its {} checkpoints can be used:\n  {}", directory_.string(),
                                  paths.size(), fmt::join(problems, "\n  ")));
   }
-  for (const std::string& problem : problems) {
-    spdlog::warn("{}; going on from {} instead", problem, paths[problems.size()].filename().string());
-  }
-  for (const std::filesystem::path& path : unusable) {
-    SetAside(path);
+  for (size_t later = 0; later < problems.size(); ++later) {
+    spdlog::warn("{}; going on from {} instead", problems[later], paths[problems.size()].filename().string());
+    SetAside(paths[later]);
   }
   return taken;
 }

@@ -34,10 +34,10 @@ class CheckpointFolder {
   /// Throws UsageError with the reason where a whole checkpoint, read from the file, can't be used.
   using Check = std::function<void(const Checkpoint&, const std::filesystem::path&)>;
 
-  /// The latest one that is whole and passes the check. Later ones that are not or do not are renamed to
-  /// NAME.unusable (in place of an older one of that name), so that they count as none of those that Prune
-  /// keeps; the log says what is wrong with them. None: there is no checkpoint at all. Throws UsageError
-  /// where there are some and none is usable; then nothing is renamed. The caller holds the folder's lock.
+  /// The latest one that can be read, is whole and passes the check. Later ones are renamed to NAME.unusable
+  /// (in place of an older one of that name), so that they count as none of those that Prune keeps; the log
+  /// says what is wrong with them. None: there is no checkpoint at all. Throws UsageError where there are
+  /// some and none is usable; then nothing is renamed. The caller holds the folder's lock.
   std::optional<Checkpoint> TakeLatest(const Check& check) const;
 
  private:

@@ -201,8 +201,9 @@ void LearnerNode::HandleRun(const run_t& message) {
     return;
   }
   const bool current = IsCurrent(message.utime, WallMicroseconds());
-  if (!warned_of_foreign_run_) {  // once: whoever floods the bus with runs is not to fill the log
-    warned_of_foreign_run_ = true;
+  bool& warned = current ? warned_of_foreign_run_ : warned_of_recorded_run_;
+  if (!warned) {  // once: whoever floods the bus with runs is not to fill the log
+    warned = true;
     spdlog::warn(
         "{}, {:016x}, is on {}: it does no harm, but shares the bandwidth",
         current ? "another run" : "a recording of a run (or a run whose clock differs from this host's)",

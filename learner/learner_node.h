@@ -120,6 +120,7 @@ class LearnerNode {
   int64_t waiting_since_us_ = 0;  // the trainer, for a result; 0: it does not wait
   int64_t foreign_run_ = 0;
   bool warned_of_foreign_run_ = false;
+  bool warned_of_recorded_run_ = false;
   bool announced_ = false;  // this run, by this node
 
   // The network thread's own.

@@ -173,11 +173,29 @@ TEST_F(HostileDatagrams, AFilterIsOfOneBusOnly) {
   EXPECT_EQ(HeardOfAllOnA(TwoFragments()), std::vector<std::string>{"parttwo!"});
 }
 
+TEST_F(HostileDatagrams, EveryLengthOfAChannelsNameIsTold) {
+  for (size_t length = 1; length <= 63; ++length) {
+    const std::string channel(length, 'C');
+    const std::string other = channel.substr(1) + "D";
+    const std::string longer = channel + "C";
+    const auto bus = OpenLcmBus(kUrl);
+    std::vector<std::string> heard;
+    bus->Subscribe(channel, [&](auto message) { heard.push_back(Text(message)); });
+    bus->Subscribe("END", [&](auto) { ended_ = true; });
+    SendAndPoll(*bus, {WholeMessage(other + '\0'), WholeMessage(longer + '\0'), WholeMessage(channel),
+                       WholeMessage(channel + '\0'), WholeMessage(channel + '\0' + "x")});
+    EXPECT_EQ(heard, (std::vector<std::string>{"", "x"})) << length;
+    EXPECT_EQ(Dropped(), 3) << length;
+  }
+}
+
 TEST_F(HostileDatagrams, AChannelThatLcmCantHaveIsRefused) {
-  const auto bus = OpenLcmBus(kUrl);
-  EXPECT_NO_THROW(bus->Subscribe(std::string(63, 'A'), [](auto) {}));
-  EXPECT_THROW(bus->Subscribe(std::string(64, 'A'), [](auto) {}), Error);
-  EXPECT_THROW(bus->Subscribe(std::string("A\0B", 3), [](auto) {}), Error);
+  for (const char* url : {kUrl, "memq://"}) {
+    const auto bus = OpenLcmBus(url);
+    EXPECT_NO_THROW(bus->Subscribe(std::string(63, 'A'), [](auto) {}));
+    EXPECT_THROW(bus->Subscribe(std::string(64, 'A'), [](auto) {}), Error);
+    EXPECT_THROW(bus->Subscribe(std::string("A\0B", 3), [](auto) {}), Error);
+  }
 }
 
 }  // namespace

@@ -110,6 +110,13 @@ TEST_F(ResumptionTest, KeepsWhatItGoesOnFromRatherThanLaterOnesThatAreUnusable) 
   EXPECT_EQ(ReadFile(path.string() + ".unusable"), torn);
 }
 
+TEST_F(ResumptionTest, SetsAsideWhatItCantReadToo) {
+  const Path taken = Write(NextCheckpoint());
+  std::filesystem::create_directory(checkpoints_.PathFor(2));
+  EXPECT_EQ(Taken(), 1);
+  EXPECT_EQ(checkpoints_.Latest(), std::vector<Path>{taken});
+}
+
 TEST_F(ResumptionTest, LeavesFilesOfOtherNamesAlone) {
   const Path path = Write(NextCheckpoint());
   const Path backup = checkpoints_.PathFor(0).parent_path() / "backup.checkpoint";
