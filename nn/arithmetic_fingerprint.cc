@@ -3,8 +3,9 @@
 #include "nn/mlp.h"
 
 namespace fresco {
+namespace {
 
-uint32_t ArithmeticFingerprint() {
+uint32_t ComputeFingerprint() {
   constexpr int kBatch = 24;
   const Mlp mlp(MlpShape({7, 200, 256, 20}));
   const Vector parameters = InitialParameters(mlp.shape(), 1);
@@ -18,6 +19,13 @@ uint32_t ArithmeticFingerprint() {
   mlp.Forward({parameters.data(), static_cast<size_t>(parameters.size())}, kBatch, workspace);
   const Matrix& output = workspace.output();
   return Crc32c(std::span<const float>(output.data(), static_cast<size_t>(output.size())));
+}
+
+}  // namespace
+
+uint32_t ArithmeticFingerprint() {
+  static const uint32_t fingerprint = ComputeFingerprint();  // takes milliseconds
+  return fingerprint;
 }
 
 }  // namespace fresco
