@@ -125,7 +125,7 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
 /// Says it once, of one run every ten seconds: whoever floods the bus with runs is not to fill the log.
 void Actor::NoteRefusal(int64_t run_id, const char* reason) {
   constexpr int64_t kPeriodUs = 10'000'000;
-  if (refused_run_ == 0 || now_us_ >= next_refusal_us_) {
+  if (now_us_ >= next_refusal_us_) {
     spdlog::error("run {:016x} on {} can't be served: {}", static_cast<uint64_t>(run_id), channels_.run,
                   reason);
     next_refusal_us_ = now_us_ + kPeriodUs;

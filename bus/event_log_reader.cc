@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/big_endian.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -23,25 +24,16 @@ constexpr size_t kBlockBytes = 1 << 20;
 constexpr int32_t kMaximumChannelBytes = 999;
 constexpr int32_t kMaximumMessageBytes = 1 << 28;
 
-template <class Unsigned>
-Unsigned BigEndian(const std::byte* bytes) {
-  Unsigned value = 0;
-  for (size_t i = 0; i < sizeof(Unsigned); ++i) {
-    value = static_cast<Unsigned>(value << 8 | std::to_integer<Unsigned>(bytes[i]));
-  }
-  return value;
-}
-
 bool IsSyncWord(const std::byte* bytes) {
-  return BigEndian<uint32_t>(bytes) == kSyncWord;
+  return ReadBigEndian<uint32_t>(bytes) == kSyncWord;
 }
 
 struct Header {
   explicit Header(const std::byte* bytes)
-      : number(static_cast<int64_t>(BigEndian<uint64_t>(bytes + 4))),
-        utime(static_cast<int64_t>(BigEndian<uint64_t>(bytes + 12))),
-        channel_bytes(static_cast<int32_t>(BigEndian<uint32_t>(bytes + 20))),
-        message_bytes(static_cast<int32_t>(BigEndian<uint32_t>(bytes + 24))),
+      : number(static_cast<int64_t>(ReadBigEndian<uint64_t>(bytes + 4))),
+        utime(static_cast<int64_t>(ReadBigEndian<uint64_t>(bytes + 12))),
+        channel_bytes(static_cast<int32_t>(ReadBigEndian<uint32_t>(bytes + 20))),
+        message_bytes(static_cast<int32_t>(ReadBigEndian<uint32_t>(bytes + 24))),
         begins_with_sync_word(IsSyncWord(bytes)) {}
 
   bool IsPossible() const {

@@ -10,9 +10,10 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
-#include <string_view>
+#include <span>
 #include <system_error>
 
+#include "core/big_endian.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -55,45 +56,43 @@ std::optional<uint16_t> BoundPort(int descriptor) {
 
 using Instructions = std::vector<sock_filter>;
 
-/// The load of so many bytes, and what it loads: a word, a half or a byte, whichever fits.
+/// A load, and what it has to load.
 struct Load {
   uint16_t size_code;
   uint32_t bytes;
+  uint32_t expected;
 };
 
-Load LargestLoad(size_t bytes) {
-  return bytes >= 4 ? Load{BPF_W, 4} : bytes >= 2 ? Load{BPF_H, 2} : Load{BPF_B, 1};
-}
-
-uint32_t BigEndian(std::string_view bytes) {
-  uint32_t value = 0;
-  for (const char byte : bytes) {
-    value = value << 8 | static_cast<uint8_t>(byte);
+Load LargestLoad(std::span<const std::byte> of) {
+  if (of.size() >= sizeof(uint32_t)) {
+    return {BPF_W, sizeof(uint32_t), ReadBigEndian<uint32_t>(of.data())};
   }
-  return value;
+  if (of.size() >= sizeof(uint16_t)) {
+    return {BPF_H, sizeof(uint16_t), ReadBigEndian<uint16_t>(of.data())};
+  }
+  return {BPF_B, sizeof(uint8_t), ReadBigEndian<uint8_t>(of.data())};
 }
 
 /// Ends the program with everything passing where the channel, with its end, stands at its place; goes on
 /// behind where it does not. Few loads: the kernel makes a dozen instructions of each and has little room
 /// (net.core.optmem_max).
 void AddChannel(const std::string& channel, Instructions& program) {
-  const std::string_view ended(channel.c_str(), channel.size() + 1);
+  const auto ended = std::as_bytes(std::span(channel.c_str(), channel.size() + 1));
   Instructions block;
   block.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0));  // a load behind the datagram's end would drop it
   block.push_back(
       BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kChannelAt + static_cast<uint32_t>(ended.size()), 0, 0));
-  for (size_t i = 0; i < ended.size();) {
-    const Load load = LargestLoad(ended.size() - i);
-    block.push_back(BPF_STMT(static_cast<uint16_t>(BPF_LD | load.size_code | BPF_ABS),
-                             kChannelAt + static_cast<uint32_t>(i)));
-    block.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, BigEndian(ended.substr(i, load.bytes)), 0, 0));
+  for (uint32_t i = 0; i < ended.size();) {
+    const Load load = LargestLoad(ended.subspan(i));
+    block.push_back(BPF_STMT(static_cast<uint16_t>(BPF_LD | load.size_code | BPF_ABS), kChannelAt + i));
+    block.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, load.expected, 0, 0));
     i += load.bytes;
   }
   block.push_back(BPF_STMT(BPF_RET | BPF_K, kAllBytes));
+  // Where a comparison fails, on behind the block: 64 bytes make 35 instructions, a jump's reach is 255.
   for (size_t i = 0; i < block.size(); ++i) {
     if (BPF_CLASS(block[i].code) == BPF_JMP) {
-      block[i].jf = static_cast<uint8_t>(block.size() - i -
-                                         1);  // behind the block; 64 bytes make 36 instructions at most
+      block[i].jf = static_cast<uint8_t>(block.size() - i - 1);
     }
   }
   program.insert(program.end(), block.begin(), block.end());

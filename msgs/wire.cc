@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "bus/authenticated_bus.h"
+#include "core/big_endian.h"
 #include "core/check.h"
 #include "core/crc32c.h"
 
@@ -15,12 +16,8 @@ constexpr size_t kIdentityBytes = 3 * sizeof(int64_t);
 
 static_assert(kTrailerBytes + kAuthenticationTagBytes <= kReservedTrailerBytes);
 
-int32_t BigEndianInt32(std::span<const std::byte> bytes) {
-  uint32_t value = 0;
-  for (size_t i = 0; i < sizeof value; ++i) {
-    value = (value << 8) | static_cast<uint32_t>(bytes[i]);
-  }
-  return static_cast<int32_t>(value);
+int32_t ReadInt32(std::span<const std::byte> bytes) {
+  return static_cast<int32_t>(ReadBigEndian<uint32_t>(bytes.data()));
 }
 
 }  // namespace
@@ -30,7 +27,7 @@ std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes) {
     return {};
   }
   const auto encoding = bytes.first(bytes.size() - kTrailerBytes);
-  const bool holds = Crc32c(encoding) == static_cast<uint32_t>(BigEndianInt32(bytes.last(kTrailerBytes)));
+  const bool holds = Crc32c(encoding) == ReadBigEndian<uint32_t>(bytes.last(kTrailerBytes).data());
   return holds ? encoding : std::span<const std::byte>{};
 }
 
@@ -54,7 +51,7 @@ bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list
     return false;
   }
   for (const int32_t maximum : maxima) {
-    const int32_t count = BigEndianInt32(encoding.subspan(offset, sizeof(int32_t)));
+    const int32_t count = ReadInt32(encoding.subspan(offset, sizeof(int32_t)));
     if (count < 0 || count > maximum) {
       return false;
     }
@@ -69,7 +66,7 @@ bool TextsAreAllowed(std::span<const std::byte> encoding, size_t offset, int cou
     if (encoding.size() <= begin) {
       return false;
     }
-    const int32_t length = BigEndianInt32(encoding.subspan(offset, sizeof(int32_t)));
+    const int32_t length = ReadInt32(encoding.subspan(offset, sizeof(int32_t)));
     if (length < 1 || static_cast<size_t>(length) > encoding.size() - begin) {
       return false;
     }

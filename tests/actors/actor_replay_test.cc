@@ -18,6 +18,15 @@ class ActorReplay : public ActorTest {
     BeginRun();
   }
 
+  /// The run that the actor serves once another one is announced, at `utime` by its learner's clock.
+  int64_t ServedBesideAnother(
+      int64_t utime, const std::function<void(run_t&)>& change = [](run_t&) {}) {
+    LearnerDouble other(*bus_, channels_, experiment_, kRunId + 1);
+    other.SetClock(utime);
+    other.AnnounceRun(change);
+    return NextStatus().run_id;
+  }
+
   /// As it was sent two seconds before.
   void SendOld(const std::function<void()>& send) {
     learner_.SetClock(kNow - 2 * kSecondUs);
@@ -100,30 +109,21 @@ TEST_F(ActorReplay, OfAnEarlierRunDoesNotKeepAnActorFromTheRunThatGoesOn) {
 TEST_F(ActorReplay, IsToldFromARunWhoseHostsClockIsAnother) {
   for (const int64_t later_us : {-kClockToleranceUs, kClockToleranceUs}) {
     wall_us_ = kNow + later_us;
-    LearnerDouble beside(*bus_, channels_, experiment_, kRunId + 1);
-    beside.SetClock(wall_us_);
-    beside.AnnounceRun();
-    EXPECT_EQ(NextStatus().run_id, kRunId);
+    EXPECT_EQ(ServedBesideAnother(wall_us_), kRunId);
   }
 }
 
 TEST_F(ActorReplay, OfNoEarlierRunIsLeftForAnother) {
   wall_us_ = kNow + kClockToleranceUs + 1;
-  LearnerDouble earlier(*bus_, channels_, experiment_, kRunId + 1);
   for (const int64_t utime : {wall_us_ - kClockToleranceUs - 1, wall_us_ + kClockToleranceUs + 1,
                               std::numeric_limits<int64_t>::max(), std::numeric_limits<int64_t>::min()}) {
-    earlier.SetClock(utime);
-    earlier.AnnounceRun();
-    EXPECT_EQ(NextStatus().run_id, kRunId);
+    EXPECT_EQ(ServedBesideAnother(utime), kRunId);
   }
 }
 
 TEST_F(ActorReplay, IsNotLeftForARunThatCantBeServed) {
   wall_us_ = kNow + kClockToleranceUs + 1;
-  LearnerDouble liar(*bus_, channels_, experiment_, kRunId + 1);
-  liar.SetClock(wall_us_);
-  liar.AnnounceRun([](run_t& part) { part.config_hash ^= 1; });
-  EXPECT_EQ(NextStatus().run_id, kRunId);
+  EXPECT_EQ(ServedBesideAnother(wall_us_, [](run_t& part) { part.config_hash ^= 1; }), kRunId);
 }
 
 }  // namespace

@@ -9,15 +9,13 @@
 #include "tests/bus/text_messages.h"
 
 namespace fresco {
-namespace {
-
-void AppendBigEndian(std::string& bytes, uint64_t value, int size) {
+std::string BigEndian(uint64_t value, int size) {
+  std::string bytes;
   for (int shift = 8 * (size - 1); shift >= 0; shift -= 8) {
     bytes += static_cast<char>(value >> shift & 0xff);
   }
+  return bytes;
 }
-
-}  // namespace
 
 LogEvent Owned(const LcmEvent& event) {
   return {event.utime, std::string(event.channel),
@@ -48,11 +46,9 @@ std::string LogBytes(const std::vector<LogEvent>& events) {
   std::string bytes;
   uint64_t number = 0;
   for (const LogEvent& event : events) {
-    AppendBigEndian(bytes, 0xEDA1DA01, 4);
-    AppendBigEndian(bytes, number++, 8);
-    AppendBigEndian(bytes, static_cast<uint64_t>(event.utime), 8);
-    AppendBigEndian(bytes, event.channel.size(), 4);
-    AppendBigEndian(bytes, event.message.size(), 4);
+    bytes += BigEndian(0xEDA1DA01, 4) + BigEndian(number++, 8) +
+             BigEndian(static_cast<uint64_t>(event.utime), 8) + BigEndian(event.channel.size(), 4) +
+             BigEndian(event.message.size(), 4);
     bytes += event.channel + event.message;
   }
   return bytes;

@@ -24,6 +24,9 @@ LcmEvent EventOf(const LogEvent& event);
 /// Events of many sizes and channels, a millisecond apart; some contain the sync word, one is empty.
 std::vector<LogEvent> SampleEvents(int count, int64_t first_utime = 1'700'000'000'000'000);
 
+/// The lowest `size` bytes of the number, most significant first: how LCM writes one.
+std::string BigEndian(uint64_t value, int size);
+
 /// The log's bytes as the published format has them.
 std::string LogBytes(const std::vector<LogEvent>& events);
 

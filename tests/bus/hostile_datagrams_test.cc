@@ -14,6 +14,7 @@
 #include "bus/bus.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "tests/bus/event_log_files.h"
 #include "tests/bus/text_messages.h"
 
 namespace fresco {
@@ -22,25 +23,19 @@ namespace {
 constexpr uint16_t kPort = 17405;
 constexpr char kUrl[] = "udpm://239.255.76.67:17405";
 
-std::string BigEndian(uint32_t value, int bytes = 4) {
-  std::string text;
-  for (int i = bytes - 1; i >= 0; --i) {
-    text += static_cast<char>(value >> (8 * i) & 0xFF);
-  }
-  return text;
-}
-
 std::string WholeMessage(const std::string& rest) {
-  return "LC02" + BigEndian(0) + rest;
+  return "LC02" + BigEndian(0, 4) + rest;
 }
 
 std::string Fragment(uint32_t message_bytes, uint32_t offset, uint32_t number, uint32_t count,
                      const std::string& rest) {
-  return "LC03" + BigEndian(7) + BigEndian(message_bytes) + BigEndian(offset) + BigEndian(number, 2) +
-         BigEndian(count, 2) + rest;
+  return "LC03" + BigEndian(7, 4) + BigEndian(message_bytes, 4) + BigEndian(offset, 4) +
+         BigEndian(number, 2) + BigEndian(count, 2) + rest;
 }
 
-const std::string kFragmentBegin("A\0part", 6);
+std::string FragmentBegin() {
+  return std::string("A\0part", 6);
+}
 
 /// LCM's buffer holds zeros, of the first, which is none of LCM's, where the second one's channel should end.
 std::vector<std::string> ChannelWithoutEnd() {
@@ -49,7 +44,7 @@ std::vector<std::string> ChannelWithoutEnd() {
 
 /// A message as LCM sends it where it needs two datagrams.
 std::vector<std::string> TwoFragments() {
-  return {Fragment(8, 0, 0, 2, kFragmentBegin), Fragment(8, 4, 1, 2, "two!")};
+  return {Fragment(8, 0, 0, 2, FragmentBegin()), Fragment(8, 4, 1, 2, "two!")};
 }
 
 class HostileDatagrams : public ::testing::Test {
@@ -133,9 +128,9 @@ TEST_F(HostileDatagrams, OnlyWholeMessagesOfTheChannelsThatAreReadReachLcm) {
   std::vector<std::string> hostile = {
       Fragment(100, 0xFFFFFFF0, 0, 1, std::string("A\0", 2) + std::string(0x20, 'x')),  // behind its end
       Fragment(100, 0, 0, 1, "A"),                                                      // cut short
-      "LC03" + BigEndian(7),
-      Fragment(0xFFFFFFFF, 0, 0, 2, kFragmentBegin),
-      Fragment(1 << 28, 0, 0, 2, kFragmentBegin),
+      "LC03" + BigEndian(7, 4),
+      Fragment(0xFFFFFFFF, 0, 0, 2, FragmentBegin()),
+      Fragment(1 << 28, 0, 0, 2, FragmentBegin()),
       "LC",
       "",
       WholeMessage("AND"),
