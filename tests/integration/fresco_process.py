@@ -13,6 +13,7 @@ BIN = pathlib.Path(os.environ["FRESCO_BIN"])
 # Programs with a sanitizer are slow: another configuration then, and deadlines so many times longer.
 CI_CONFIG = pathlib.Path(os.environ.get("FRESCO_CI_CONFIG", ROOT / "configs" / "ci.textproto"))
 PATIENCE = float(os.environ.get("FRESCO_PATIENCE", 1))
+SOAK_ARGUMENTS = os.environ.get("FRESCO_SOAK_ARGUMENTS", "").split()
 
 
 def url(port):

@@ -8,7 +8,7 @@ import signal
 import sys
 import unittest
 
-from fresco_process import CI_CONFIG, PATIENCE, FrescoTest, processes_with, url, wait_until
+from fresco_process import CI_CONFIG, PATIENCE, SOAK_ARGUMENTS, FrescoTest, processes_with, url, wait_until
 
 SHORT = ("--set", "schedule.episodes=800")
 
@@ -16,7 +16,7 @@ SHORT = ("--set", "schedule.episodes=800")
 class Soak(FrescoTest):
     def start_soak(self, port, *arguments):
         return self.start("soak", "--config", CI_CONFIG, "--lcm-url", url(port), "--out", self.folder / "soak", "--format",
-                          "json", *arguments)
+                          "json", *SOAK_ARGUMENTS, *arguments)
 
     def finish(self, process, expect):
         output, errors = process.communicate(timeout=300)

@@ -99,7 +99,7 @@ class Soak {
     if (result.facts) {
       add(Differences(*report_.undisturbed.facts, *result.facts));
     }
-    add(Excesses(report_.undisturbed.use, result.use));
+    add(Excesses(report_.undisturbed.use, result.use, int64_t{1024} * options_.memory_allowance_mib));
   }
 
   void CheckWhatIsLeft() {

@@ -12,7 +12,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int64_t kMoreMemoryKib = 8 * 1024;
 constexpr int kMoreDescriptors = 4;
 
 double ToMib(int64_t kib) {
@@ -62,7 +61,8 @@ std::vector<std::string> Differences(const RunFacts& undisturbed, const RunFacts
   return differences;
 }
 
-std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByProgram& disturbed) {
+std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByProgram& disturbed,
+                                  int64_t memory_allowance_kib) {
   std::vector<std::string> excesses;
   for (const auto& [program, use] : disturbed) {
     const auto before = undisturbed.find(program);
@@ -70,7 +70,7 @@ std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByPr
       continue;
     }
     const ProcessUse& usual = before->second;
-    const int64_t memory_limit_kib = usual.peak_kib + usual.peak_kib / 4 + kMoreMemoryKib;
+    const int64_t memory_limit_kib = usual.peak_kib + usual.peak_kib / 4 + memory_allowance_kib;
     if (use.peak_kib > memory_limit_kib) {
       excesses.push_back(
           fmt::format("{}: {:.0f} MiB of memory at most, {:.0f} MiB undisturbed, {:.0f} MiB allowed", program,

@@ -28,9 +28,10 @@ bool IsComplete(const std::filesystem::path& folder);
 /// What a disturbed run has that the undisturbed one has not.
 std::vector<std::string> Differences(const RunFacts& undisturbed, const RunFacts& disturbed);
 
-/// Programs that used more than the undisturbed run's: peak memory beyond 1.25 times and 8 MiB, or more
-/// than a few descriptors.
-std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByProgram& disturbed);
+/// Programs that used more than the undisturbed run's: peak memory beyond 1.25 times and the allowance, or
+/// more than a few descriptors.
+std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByProgram& disturbed,
+                                  int64_t memory_allowance_kib);
 
 /// What a series gained from its first value to its last along its trend: the median of all slopes between
 /// two values (Theil and Sen), so that neither noise nor a single step counts. 0 for fewer than four.

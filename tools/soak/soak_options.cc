@@ -33,6 +33,10 @@ void AddSoakOptions(CLI::App& soak, SoakOptions& options) {
   soak.add_option("--out", options.out, "New folder for the runs; default: one under runs/");
   soak.add_option("--lcm-url", options.lcm_url, "Where learner and actors meet");
   AddKeyFileOption(soak, options.key_file);
+  soak.add_option("--memory-allowance-mib", options.memory_allowance_mib,
+                  "A program under faults may need so much more than 1.25 times its memory without them")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1 << 20));
   soak.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
 }
 
@@ -74,6 +78,9 @@ std::string RepeatCommand(const SoakOptions& options, int round) {
   }
   if (options.key_file) {
     command += " --key-file " + Quoted(options.key_file->string());
+  }
+  if (options.memory_allowance_mib != SoakOptions().memory_allowance_mib) {
+    command += fmt::format(" --memory-allowance-mib {}", options.memory_allowance_mib);
   }
   return command;
 }

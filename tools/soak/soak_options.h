@@ -23,6 +23,7 @@ struct SoakOptions {
   std::string out;
   std::string lcm_url;
   KeyFile key_file;  ///< of every round
+  int memory_allowance_mib = 8;
   std::string format = "text";
 };
 

@@ -47,15 +47,17 @@ UseByProgram Use(int64_t peak_kib, int descriptors) {
   return {{"fresco-learner", {peak_kib, peak_kib, descriptors}}};
 }
 
-TEST(Excesses, AllowAQuarterAnd8MebibytesAndFourDescriptors) {
+TEST(Excesses, AllowAQuarterAndTheAllowanceAndFourDescriptors) {
+  constexpr int64_t kAllowanceKib = 8 * 1024;
   const UseByProgram usual = Use(100 * 1024, 17);
-  EXPECT_TRUE(Excesses(usual, Use(133 * 1024, 21)).empty());
-  EXPECT_TRUE(Excesses(usual, Use(1024, 3)).empty());
-  EXPECT_TRUE(Excesses(usual, {}).empty());
-  const auto memory = Excesses(usual, Use(133 * 1024 + 1, 21));
+  EXPECT_TRUE(Excesses(usual, Use(133 * 1024, 21), kAllowanceKib).empty());
+  EXPECT_TRUE(Excesses(usual, Use(1024, 3), kAllowanceKib).empty());
+  EXPECT_TRUE(Excesses(usual, {}, kAllowanceKib).empty());
+  const auto memory = Excesses(usual, Use(133 * 1024 + 1, 21), kAllowanceKib);
   ASSERT_EQ(memory.size(), 1u);
   EXPECT_NE(memory[0].find("fresco-learner: 133 MiB"), std::string::npos) << memory[0];
-  const auto descriptors = Excesses(usual, Use(133 * 1024, 22));
+  EXPECT_EQ(Excesses(usual, Use(133 * 1024 + 1, 21), kAllowanceKib + 1).size(), 0u);
+  const auto descriptors = Excesses(usual, Use(133 * 1024, 22), kAllowanceKib);
   ASSERT_EQ(descriptors.size(), 1u);
   EXPECT_NE(descriptors[0].find("22 open descriptors"), std::string::npos) << descriptors[0];
 }
