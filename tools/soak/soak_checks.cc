@@ -101,8 +101,7 @@ double Growth(const std::vector<double>& series) {
   return *middle * static_cast<double>(series.size() - 1);
 }
 
-std::vector<std::string> Leaks(const std::vector<ProcessUse>& after_rounds) {
-  constexpr double kMemoryKib = 16 * 1024;
+std::vector<std::string> Leaks(const std::vector<ProcessUse>& after_rounds, int64_t memory_allowance_kib) {
   constexpr double kDescriptors = 2;
   std::vector<double> memory_kib;
   std::vector<double> descriptors;
@@ -111,7 +110,7 @@ std::vector<std::string> Leaks(const std::vector<ProcessUse>& after_rounds) {
     descriptors.push_back(use.descriptors);
   }
   std::vector<std::string> leaks;
-  if (const double growth = Growth(memory_kib); growth > kMemoryKib) {
+  if (const double growth = Growth(memory_kib); growth > static_cast<double>(memory_allowance_kib)) {
     leaks.push_back(fmt::format("the soak's own memory grew by {:.0f} MiB over the rounds", growth / 1024));
   }
   if (const double growth = Growth(descriptors); growth > kDescriptors) {

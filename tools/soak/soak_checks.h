@@ -37,7 +37,8 @@ std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByPr
 /// two values (Theil and Sen), so that neither noise nor a single step counts. 0 for fewer than four.
 double Growth(const std::vector<double>& series);
 
-/// Growth of this program over the rounds, one value after each: memory by 16 MiB, descriptors by two.
-std::vector<std::string> Leaks(const std::vector<ProcessUse>& after_rounds);
+/// Growth of this program over the rounds, one value after each: memory by more than the allowance,
+/// descriptors by more than two.
+std::vector<std::string> Leaks(const std::vector<ProcessUse>& after_rounds, int64_t memory_allowance_kib);
 
 }  // namespace fresco

@@ -33,8 +33,10 @@ void AddSoakOptions(CLI::App& soak, SoakOptions& options) {
   soak.add_option("--out", options.out, "New folder for the runs; default: one under runs/");
   soak.add_option("--lcm-url", options.lcm_url, "Where learner and actors meet");
   AddKeyFileOption(soak, options.key_file);
-  soak.add_option("--memory-allowance-mib", options.memory_allowance_mib,
-                  "A program under faults may need so much more than 1.25 times its memory without them")
+  soak.add_option(
+          "--memory-allowance-mib", options.memory_allowance_mib,
+          "A program under faults may need so much more than 1.25 times its memory without them; the soak "
+          "itself may grow by twice as much over its rounds")
       ->capture_default_str()
       ->check(CLI::Range(0, 1 << 20));
   soak.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));

@@ -47,8 +47,9 @@ UseByProgram Use(int64_t peak_kib, int descriptors) {
   return {{"fresco-learner", {peak_kib, peak_kib, descriptors}}};
 }
 
+constexpr int64_t kAllowanceKib = 8 * 1024;
+
 TEST(Excesses, AllowAQuarterAndTheAllowanceAndFourDescriptors) {
-  constexpr int64_t kAllowanceKib = 8 * 1024;
   const UseByProgram usual = Use(100 * 1024, 17);
   EXPECT_TRUE(Excesses(usual, Use(133 * 1024, 21), kAllowanceKib).empty());
   EXPECT_TRUE(Excesses(usual, Use(1024, 3), kAllowanceKib).empty());
@@ -118,12 +119,13 @@ std::vector<ProcessUse> AfterRounds(int64_t more_kib, int more_descriptors) {
 }
 
 TEST(Leaks, AreFoundInMemoryAndDescriptors) {
-  EXPECT_TRUE(Leaks(AfterRounds(0, 0)).empty());
-  EXPECT_TRUE(Leaks(AfterRounds(1000, 0)).empty());
-  ASSERT_EQ(Leaks(AfterRounds(3000, 0)).size(), 1u);
-  EXPECT_NE(Leaks(AfterRounds(3000, 0))[0].find("memory grew by 26 MiB"), std::string::npos);
-  ASSERT_EQ(Leaks(AfterRounds(0, 1)).size(), 1u);
-  EXPECT_NE(Leaks(AfterRounds(0, 1))[0].find("descriptors grew by 9"), std::string::npos);
+  EXPECT_TRUE(Leaks(AfterRounds(0, 0), kAllowanceKib).empty());
+  EXPECT_TRUE(Leaks(AfterRounds(900, 0), kAllowanceKib).empty());
+  ASSERT_EQ(Leaks(AfterRounds(3000, 0), kAllowanceKib).size(), 1u);
+  EXPECT_NE(Leaks(AfterRounds(3000, 0), kAllowanceKib)[0].find("memory grew by 26 MiB"), std::string::npos);
+  EXPECT_TRUE(Leaks(AfterRounds(3000, 0), 4 * kAllowanceKib).empty());
+  ASSERT_EQ(Leaks(AfterRounds(0, 1), kAllowanceKib).size(), 1u);
+  EXPECT_NE(Leaks(AfterRounds(0, 1), kAllowanceKib)[0].find("descriptors grew by 9"), std::string::npos);
 }
 
 }  // namespace
