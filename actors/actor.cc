@@ -162,7 +162,7 @@ void Actor::HandleOrders(const orders_t& message) {
     return;
   }
   KeepWindow(message.committed_orders);
-  const int64_t end = message.committed_orders + session_->experiment.schedule().window();
+  const int64_t end = WindowEnd(message.committed_orders);
   for (const order_t& wire : message.orders) {
     Order order;
     if (wire.actor_id != options_.actor_id || (wire.index >= 0 && wire.index < message.committed_orders)) {
@@ -195,10 +195,15 @@ void Actor::SendAgain(Flown& flown) {
   }
 }
 
+/// The index behind the last order that the learner can have written by now.
+int64_t Actor::WindowEnd(int64_t committed) const {
+  return committed + MaximumOrdersInFlight(session_->experiment.schedule().window());
+}
+
 /// Bounds memory, also where `committed` has gone back because the learner was resumed.
 void Actor::KeepWindow(int64_t committed) {
   session_->committed = committed;
-  const int64_t end = committed + session_->experiment.schedule().window();
+  const int64_t end = WindowEnd(committed);
   const auto keep = [&](auto& by_index) {
     by_index.erase(by_index.begin(), by_index.lower_bound(committed));
     by_index.erase(by_index.lower_bound(end), by_index.end());

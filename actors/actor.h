@@ -100,6 +100,7 @@ class Actor {
   void HandleWeights(NetworkKind kind, const weights_t& message);
   void StartSession(const run_t& message, const std::string& text);
   void TakeOrder(const Order& order);
+  int64_t WindowEnd(int64_t committed) const;
   void KeepWindow(int64_t committed);
   void StartFlights();
   void Finish(const Order& order, const Episode& episode);

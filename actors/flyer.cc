@@ -146,8 +146,7 @@ int Flyer::ChooseAction(Flight& flight, int column) const {
 /// ends there, or where the mask does not let it go on. Nothing where the greedy action is due.
 std::optional<int> Flyer::Explore(Flight& flight, int column) const {
   const State& state = flight.environment.state();
-  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(flight.order.index),
-                      static_cast<uint32_t>(state.slot));
+  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(state.slot), 0);
   if (flight.waypoint == state.cell) {
     flight.waypoint.reset();
   }

@@ -15,11 +15,12 @@ std::array<uint32_t, 4> Philox4x32(std::array<uint32_t, 4> counter, std::array<u
 /// What a stream is for; streams of different purposes never share a draw. The values are part of
 /// what makes runs repeatable: append, never renumber.
 enum class RandomPurpose : uint32_t {
-  kActing = 1,           ///< epsilon-greedy choices; indices: order, slot
+  kActing = 1,           ///< epsilon-greedy choices of an episode, by its own seed; indices: slot, 0
   kReplaySampling = 2,   ///< mini-batches; indices: update low, update high
   kInitialWeights = 3,   ///< indices: layer, 0
   kSensorPlacement = 4,  ///< indices: 0, 0
   kTest = 5,             ///< tests and soak runs only
+  kEpisodeSeed = 6,      ///< seeds of training episodes; indices: episode low, episode high
 };
 
 /// The stream of (seed, purpose, first index, second index). Small, copyable; not thread-safe.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
+
 namespace fresco {
 namespace {
 
@@ -18,6 +20,14 @@ double IntegerPower(double base, int64_t exponent) {
 }
 
 }  // namespace
+
+uint64_t EpisodeSeed(uint64_t seed, int64_t episode) {
+  const auto number = static_cast<uint64_t>(episode);
+  RandomStream stream(seed, RandomPurpose::kEpisodeSeed, static_cast<uint32_t>(number),
+                      static_cast<uint32_t>(number >> 32));
+  const uint64_t high = stream.NextWord();
+  return high << 32 | stream.NextWord();
+}
 
 double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t transitions) {
   if (schedule.has_ladder()) {

@@ -1,4 +1,4 @@
-// Epsilon and learning rate over a run, as the configuration says. Pure.
+// What the schedule says of each episode and update of a run: seed, epsilon, learning rate. Pure.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,10 @@
 #include "msgs/proto/experiment.pb.h"
 
 namespace fresco {
+
+/// Seed of a training episode's random streams. `seed` is the run's, `episode` counts the training episodes
+/// from 0; evaluations do not count, so they have no influence on what is learned.
+uint64_t EpisodeSeed(uint64_t seed, int64_t episode);
 
 /// Epsilon of a training episode (0, 1, ..) that is ordered when `transitions` were committed.
 double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t transitions);

@@ -44,22 +44,21 @@ void Trainer::Begin() {
   Offer(NetworkKind::kCurrent, 0, dqn_.current());
   Offer(NetworkKind::kTarget, 0, dqn_.target());
   for (int i = 0; i < experiment_.schedule().window(); ++i) {
-    WriteNextOrder();
+    WriteTrainingOrder();
   }
 }
 
 void Trainer::Commit(const Order& order, const Episode& episode) {
   FRESCO_CHECK(!orders_.empty() && order == orders_.front().order && episode.order_index == order.index);
+  const int64_t updates_at_writing = orders_.front().updates_at_writing;
+  orders_.pop_front();
+  ++progress_.committed_orders;
   if (order.kind == OrderKind::kEvaluate) {
     CommitEvaluation(order, episode);
   } else {
-    Average(static_cast<double>(progress_.updates - orders_.front().updates_at_writing),
-            progress_.staleness_updates);
+    Average(static_cast<double>(progress_.updates - updates_at_writing), progress_.staleness_updates);
     CommitTraining(episode);
   }
-  orders_.pop_front();
-  ++progress_.committed_orders;
-  WriteNextOrder();
   ForgetVersions();
 }
 
@@ -78,7 +77,10 @@ void Trainer::TakeLeastValues(const Episode& episode) {
   }
 }
 
+/// Evaluations stand beside the training orders: each training episode makes room for one training order,
+/// whatever is evaluated.
 void Trainer::CommitTraining(const Episode& episode) {
+  const int64_t evaluations_due = EvaluationsDue();
   TakeLeastValues(episode);
   for (int transition = 0; transition < episode.transitions(); ++transition) {
     Insert(episode, transition);
@@ -91,6 +93,19 @@ void Trainer::CommitTraining(const Episode& episode) {
     }
   }
   ++progress_.episodes;
+  if (AllEpisodesCommitted()) {
+    WriteFinalEvaluation();
+  } else {
+    if (EvaluationsDue() > evaluations_due) {
+      WriteEvaluation();
+    }
+    WriteTrainingOrder();
+  }
+}
+
+/// Evaluations that the versions of the current network ask for by now.
+int64_t Trainer::EvaluationsDue() const {
+  return progress_.current_version / experiment_.schedule().versions_per_evaluation();
 }
 
 void Trainer::Insert(const Episode& episode, int transition) {
@@ -130,7 +145,6 @@ void Trainer::CopyToTarget() {
 
 void Trainer::MakeVersion() {
   Offer(NetworkKind::kCurrent, ++progress_.current_version, dqn_.current());
-  evaluation_due_ |= progress_.current_version % experiment_.schedule().versions_per_evaluation() == 0;
 }
 
 void Trainer::Offer(NetworkKind kind, int32_t version, const Vector& parameters) {
@@ -151,37 +165,37 @@ void Trainer::ForgetVersions() {
   });
 }
 
-void Trainer::WriteNextOrder() {
-  if (progress_.episodes == experiment_.schedule().episodes() && !final_evaluation_written_) {
-    FinishTraining();
-  } else if (evaluation_due_) {
-    WriteOrder(OrderKind::kEvaluate);
-  } else if (training_orders_ < experiment_.schedule().episodes()) {
-    WriteOrder(OrderKind::kTrain);
-  }
-}
-
-void Trainer::FinishTraining() {
+void Trainer::WriteFinalEvaluation() {
   if (versions_.at({NetworkKind::kCurrent, progress_.current_version}).updates != progress_.updates) {
     MakeVersion();  // the final version, however few updates it has
   }
-  WriteOrder(OrderKind::kEvaluate);
-  final_evaluation_written_ = true;
+  WriteEvaluation();
 }
 
-void Trainer::WriteOrder(OrderKind kind) {
+void Trainer::WriteTrainingOrder() {
+  const proto::Schedule& schedule = experiment_.schedule();
+  if (training_orders_ < schedule.episodes()) {
+    Order order;
+    order.kind = OrderKind::kTrain;
+    order.epsilon = EpsilonOf(schedule, training_orders_, progress_.transitions);
+    order.seed = EpisodeSeed(schedule.seed(), training_orders_);
+    progress_.epsilon = order.epsilon;
+    ++training_orders_;
+    WriteOrder(order);
+  }
+}
+
+void Trainer::WriteEvaluation() {
   Order order;
+  order.kind = OrderKind::kEvaluate;
+  WriteOrder(order);
+}
+
+/// Completes the order with its index and the newest versions, and hands it out.
+void Trainer::WriteOrder(Order order) {
   order.index = progress_.committed_orders + static_cast<int64_t>(orders_.size());
-  order.kind = kind;
-  order.seed = experiment_.schedule().seed();
   order.current_version = progress_.current_version;
   order.target_version = progress_.target_version;
-  if (kind == OrderKind::kTrain) {
-    order.epsilon = EpsilonOf(experiment_.schedule(), training_orders_++, progress_.transitions);
-    progress_.epsilon = order.epsilon;
-  } else {
-    evaluation_due_ = false;
-  }
   orders_.push_back({order, progress_.updates});
   output_.order(order);
 }

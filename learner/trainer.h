@@ -51,7 +51,7 @@ class Trainer {
   void Commit(const Order& order, const Episode& episode);
 
   /// Every training episode is committed and the final version is evaluated.
-  bool finished() const { return final_evaluation_written_ && orders_.empty(); }
+  bool finished() const { return AllEpisodesCommitted() && orders_.empty(); }
 
   const TrainerProgress& progress() const { return progress_; }
   const Vector& current() const { return dqn_.current(); }
@@ -74,9 +74,12 @@ class Trainer {
   void CheckProgress(const TrainingState& state) const;
   void CheckOrders(const TrainingState& state) const;
   void RefillReplay(const TrainingState& state);
-  void WriteNextOrder();
-  void WriteOrder(OrderKind kind);
-  void FinishTraining();
+  bool AllEpisodesCommitted() const { return progress_.episodes == experiment_.schedule().episodes(); }
+  int64_t EvaluationsDue() const;
+  void WriteFinalEvaluation();
+  void WriteTrainingOrder();
+  void WriteEvaluation();
+  void WriteOrder(Order order);
 
   Experiment experiment_;
   const World* world_;
@@ -92,10 +95,8 @@ class Trainer {
   std::vector<float> least_values_;  // of the episode's transitions
   TrainerProgress progress_;
   int64_t training_orders_ = 0;  // written
-  bool evaluation_due_ = false;
   std::deque<OrderInFlight> orders_;             // by index, from progress_.committed_orders on
   std::map<VersionKey, VersionState> versions_;  // those that orders_ name, and the newest
-  bool final_evaluation_written_ = false;
   std::optional<Evaluation> last_evaluation_;
   std::optional<BestNetwork> best_;
 };

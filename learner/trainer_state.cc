@@ -22,9 +22,6 @@ void Expect(bool condition, const std::string& problem) {
 TrainingState Trainer::Save() const {
   TrainingState state;
   state.progress = progress_;
-  state.training_orders = training_orders_;
-  state.evaluation_due = evaluation_due_;
-  state.final_evaluation_written = final_evaluation_written_;
   state.orders.assign(orders_.begin(), orders_.end());
   for (const auto& [key, version] : versions_) {
     state.versions.push_back(version);
@@ -41,9 +38,7 @@ TrainingState Trainer::Save() const {
 void Trainer::Resume(const TrainingState& state) {
   CheckState(state);
   progress_ = state.progress;
-  training_orders_ = state.training_orders;
-  evaluation_due_ = state.evaluation_due;
-  final_evaluation_written_ = state.final_evaluation_written;
+  training_orders_ = state.progress.episodes;
   last_evaluation_ = state.last_evaluation;
   best_ = state.best;
   dqn_.Restore(state.current, state.target, state.adam);
@@ -54,6 +49,7 @@ void Trainer::Resume(const TrainingState& state) {
   }
   for (const OrderInFlight& order : state.orders) {
     orders_.push_back(order);
+    training_orders_ += order.order.kind == OrderKind::kTrain ? 1 : 0;
     output_.order(order.order);
   }
 }
@@ -90,11 +86,10 @@ void Trainer::CheckState(const TrainingState& state) const {
 void Trainer::CheckProgress(const TrainingState& state) const {
   const TrainerProgress& progress = state.progress;
   const proto::Schedule& schedule = experiment_.schedule();
-  Expect(
-      0 <= progress.episodes && progress.episodes <= state.training_orders &&
-          state.training_orders <= schedule.episodes() && progress.episodes <= progress.committed_orders,
-      fmt::format("{} episodes of {} that were ordered and {} in all, {} orders committed", progress.episodes,
-                  state.training_orders, schedule.episodes(), progress.committed_orders));
+  Expect(0 <= progress.episodes && progress.episodes <= schedule.episodes() &&
+             progress.episodes <= progress.committed_orders,
+         fmt::format("{} episodes of {}, {} orders committed", progress.episodes, schedule.episodes(),
+                     progress.committed_orders));
   Expect(progress.episodes <= progress.transitions &&
              progress.transitions <= progress.episodes * world_->maximum_transitions(),
          fmt::format("{} transitions of {} episodes", progress.transitions, progress.episodes));
@@ -103,7 +98,8 @@ void Trainer::CheckProgress(const TrainingState& state) const {
          fmt::format("{} updates and {} steps of the optimiser after {} transitions", progress.updates,
                      state.adam.steps, progress.transitions));
   const int64_t whole = progress.updates / schedule.updates_per_version();
-  const bool final_version = state.final_evaluation_written && progress.current_version == whole + 1;
+  const bool final_version =
+      progress.episodes == schedule.episodes() && progress.current_version == whole + 1;
   Expect((progress.current_version == whole || final_version) &&
              progress.target_version == progress.updates / experiment_.agent().target_update_period(),
          fmt::format("versions {} and {} after {} updates", progress.current_version, progress.target_version,
@@ -126,13 +122,12 @@ void Trainer::CheckOrders(const TrainingState& state) const {
     target = order.target_version;
     training += order.kind == OrderKind::kTrain;
   }
-  Expect(training == state.training_orders - progress.episodes,
-         fmt::format("expected {} training orders in flight, found {}",
-                     state.training_orders - progress.episodes, training));
-  const bool all = progress.episodes == experiment_.schedule().episodes();
-  Expect(state.final_evaluation_written ? all : !state.orders.empty(),
-         state.final_evaluation_written ? "the last evaluation stands before the last episode"
-                                        : "no order is in flight");
+  const proto::Schedule& schedule = experiment_.schedule();
+  const int64_t expected = std::min<int64_t>(schedule.window(), schedule.episodes() - progress.episodes);
+  const auto evaluations = static_cast<int64_t>(state.orders.size()) - training;
+  Expect(training == expected && evaluations <= schedule.window(),
+         fmt::format("expected {} training orders and at most {} evaluations in flight, found {} and {}",
+                     expected, schedule.window(), training, evaluations));
 }
 
 /// Flies the episodes again and puts every transition at the place that it had.

@@ -13,7 +13,7 @@ namespace fresco {
 namespace {
 
 constexpr char kCheckpointFamily[] = "fresco-checkpoint-";
-constexpr char kCheckpointFormat[] = "fresco-checkpoint-1";
+constexpr char kCheckpointFormat[] = "fresco-checkpoint-2";
 
 /// The checkpoint in the file, whose CRC holds.
 proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {

@@ -1,4 +1,4 @@
-// An order: which episode to fly, and everything that its transitions follow from.
+// An order: which episode to fly, and everything that its transitions follow from. Plain values.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,20 @@ namespace fresco {
 enum class OrderKind : int8_t { kTrain = 0, kEvaluate = 1 };
 
 struct Order {
-  int64_t index = 0;  ///< place in the run's sequence
+  int64_t index = 0;  ///< position in the run's sequence of orders: 0, 1, ..; no random draw depends on it
   OrderKind kind = OrderKind::kTrain;
-  double epsilon = 0;
-  uint64_t seed = 0;
+  double epsilon = 0;  ///< probability of a random action, in [0, 1]; 0 for an evaluation
+  uint64_t seed = 0;   ///< of the episode's random streams; an evaluation draws nothing
   int32_t current_version = 0;
   int32_t target_version = 0;
   bool operator==(const Order&) const = default;
 };
+
+/// The most orders that a run with this window has in flight: every training order of the window can have an
+/// evaluation before it.
+inline int64_t MaximumOrdersInFlight(int32_t window) {
+  return 2 * int64_t{window};
+}
 
 /// Which of the two networks a version is of.
 enum class NetworkKind : int8_t { kCurrent = 0, kTarget = 1 };

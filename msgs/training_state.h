@@ -61,9 +61,6 @@ struct OrderInFlight {
 
 struct TrainingState {
   TrainerProgress progress;
-  int64_t training_orders = 0;  ///< written so far
-  bool evaluation_due = false;
-  bool final_evaluation_written = false;
   std::vector<OrderInFlight> orders;   ///< by index, from progress.committed_orders on without gap
   std::vector<VersionState> versions;  ///< those that these orders name, and the newest of each network
   Vector current;

@@ -109,9 +109,6 @@ std::vector<int16_t> ReadActions(const proto::Checkpoint& from, const std::strin
 
 void WriteTrainingState(const TrainingState& from, proto::Checkpoint& to) {
   ToProto(from.progress, *to.mutable_progress());
-  to.set_training_orders(from.training_orders);
-  to.set_evaluation_due(from.evaluation_due);
-  to.set_final_evaluation_written(from.final_evaluation_written);
   for (const OrderInFlight& order : from.orders) {
     ToProto(order, *to.add_orders());
   }
@@ -144,9 +141,6 @@ TrainingState ReadTrainingState(const proto::Checkpoint& from, int64_t parameter
   const VectorReader reader(parameters, origin);
   TrainingState to;
   to.progress = FromProto(from.progress());
-  to.training_orders = from.training_orders();
-  to.evaluation_due = from.evaluation_due();
-  to.final_evaluation_written = from.final_evaluation_written();
   for (const proto::CheckpointOrder& order : from.orders()) {
     to.orders.push_back(FromProto(order));
   }

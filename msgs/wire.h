@@ -23,7 +23,7 @@
 namespace fresco {
 
 /// Raised with every change to a .lcm file.
-inline constexpr int32_t kProtocolVersion = 3;
+inline constexpr int32_t kProtocolVersion = 4;
 
 /// Every message fits one Ethernet frame: LCM loses a whole message with one lost fragment.
 inline constexpr size_t kMaximumMessageBytes = 1350;

@@ -48,7 +48,7 @@ Order TrainOrder(int64_t index, double epsilon) {
   Order order;
   order.index = index;
   order.epsilon = epsilon;
-  order.seed = 3;
+  order.seed = 1000 + static_cast<uint64_t>(index);
   return order;
 }
 

@@ -125,26 +125,26 @@ TEST_F(ActorOrders, ThatAreNotTheOnesFlownUnderTheirIndexAreFlown) {
 }
 
 TEST_F(ActorOrders, OutsideOfTheWindowAreRefused) {
-  BeginRun();  // the window is 16
-  learner_.SendOrders({OrderTo(kActorId, 15), OrderTo(kActorId, 16), OrderTo(kActorId, 4000)});
+  BeginRun();  // the window is 16: with as many evaluations, 32 orders
+  learner_.SendOrders({OrderTo(kActorId, 31), OrderTo(kActorId, 32), OrderTo(kActorId, 4000)});
   learner_.SendOrders({OrderTo(kActorId, 1)}, -1);
   learner_.SendOrders({OrderTo(kActorId, 1)}, std::numeric_limits<int64_t>::max());
   FlyAll();
-  ExpectEpisodes(0, {15});
+  ExpectEpisodes(0, {31});
   EXPECT_EQ(actor_.totals().rejected.total(), 4);
 }
 
 TEST_F(ActorOrders, ThatWaitedAreForgottenWhereTheWindowHasGoneBack) {
   BeginRun();
-  std::vector<order_t> orders = Orders(20, 4);
+  std::vector<order_t> orders = Orders(40, 4);
   for (order_t& order : orders) {
     order.current_version = 1;  // which is not here
   }
-  learner_.SendOrders(orders, 20);
+  learner_.SendOrders(orders, 40);
   Step();
   actor_status_t status = NextStatus();
   EXPECT_EQ(status.open_orders, 4);
-  EXPECT_EQ(status.oldest_open_order, 20);
+  EXPECT_EQ(status.oldest_open_order, 40);
   learner_.SendOrders({}, 0);
   Step();
   status = NextStatus();

@@ -34,9 +34,9 @@ class FlyerActions : public ::testing::TestWithParam<ActionVariant> {
 
   /// Episodes of so many orders.
   std::vector<Episode> FlyMany(int orders, double epsilon) const {
-    std::vector<FlightPlan> plans(static_cast<size_t>(orders), Plan(0, epsilon));
+    std::vector<FlightPlan> plans;
     for (int index = 0; index < orders; ++index) {
-      plans[static_cast<size_t>(index)].order.index = index;
+      plans.push_back(Plan(index, epsilon));
     }
     std::vector<Episode> episodes;
     for (auto& [index, episode] : FlyTogether(world_, experiment_, 64, plans, 64)) {

@@ -57,8 +57,7 @@ TEST_P(FlyerExcursions, FlyStraightToTheDrawnCellAndScheduleGreedily) {
     for (size_t i = 0; i < episode.actions.size(); ++i) {
       const State& state = episode.states[i];
       const Doubles values = LiteralValues(experiment, *plan.current, state);
-      RandomStream stream(plan.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(index),
-                          static_cast<uint32_t>(state.slot));
+      RandomStream stream(plan.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(state.slot), 0);
       if (waypoint && *waypoint == state.cell) {
         waypoint.reset();
       }

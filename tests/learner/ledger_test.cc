@@ -49,7 +49,7 @@ class LedgerTest : public ::testing::Test {
       Order order;
       order.index = index;
       order.epsilon = 0.7;
-      order.seed = 3;
+      order.seed = 3 + static_cast<uint64_t>(index);
       ledger_.Write(order);
       episodes_.push_back(FlyOrder(world_, experiment_, order, parameters, parameters));
       for (int first = 0; first < episodes_.back().transitions(); first += 5) {

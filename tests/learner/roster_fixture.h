@@ -28,7 +28,7 @@ class RosterFixture : public ::testing::Test {
       Order order;
       order.index = ledger_.committed() + ledger_.in_flight();
       order.epsilon = 0.25;
-      order.seed = 9;
+      order.seed = 9 + static_cast<uint64_t>(order.index);
       order.current_version = 3;
       order.target_version = 2;
       ledger_.Write(order);

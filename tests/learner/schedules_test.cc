@@ -1,12 +1,21 @@
-// Epsilon and learning rate against values worked by hand.
+// Seeds against the stream that makes them; epsilon and learning rate against values worked by hand.
 #include "learner/schedules.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "core/random.h"
+
 namespace fresco {
 namespace {
+
+TEST(Schedules, DrawEveryEpisodesSeedFromAPlaceOfItsOwn) {
+  // Philox4x32-10 by its definition: counter (0, second, first, purpose 6), key the run's seed.
+  const uint64_t seed = 0x0123456789ABCDEF;
+  const auto block = Philox4x32({0, 7, 9, 6}, {0x89ABCDEF, 0x01234567});
+  EXPECT_EQ(EpisodeSeed(seed, (int64_t{7} << 32) + 9), uint64_t{block[0]} << 32 | block[1]);
+}
 
 TEST(Schedules, ClimbTheLadderOfApeX) {
   proto::Schedule schedule;

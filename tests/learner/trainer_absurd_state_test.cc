@@ -90,20 +90,12 @@ class AbsurdState : public ::testing::Test {
   }
 
   void ChangeOther(TrainingState& state) {
-    switch (stream_.NextBelow(7)) {
+    switch (stream_.NextBelow(4)) {
       case 0:
-        return Change(state.training_orders);
-      case 1:
         return Change(state.adam.steps);
-      case 2:
-        state.evaluation_due = !state.evaluation_due;
-        return;
-      case 3:
-        state.final_evaluation_written = !state.final_evaluation_written;
-        return;
-      case 4:
+      case 1:
         return state.actions.empty() ? state.actions.push_back(0) : state.actions.pop_back();
-      case 5:
+      case 2:
         state.actions.resize(std::min<size_t>(state.actions.size(), stream_.NextBelow(500)));
         return;
       default:

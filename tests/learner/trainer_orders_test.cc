@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <vector>
 
+#include "learner/schedules.h"
 #include "tests/learner/recorded_run.h"
 
 namespace fresco {
 namespace {
 
-constexpr size_t kWindow = 6;
+constexpr int64_t kWindow = 6;
 constexpr int64_t kEpisodes = 60;
 constexpr int64_t kTransitions = 13;
 
@@ -30,39 +34,51 @@ int64_t TrainingOrders(const RecordedRun& run, size_t count) {
                        [](const Order& order) { return order.kind == OrderKind::kTrain; });
 }
 
-/// The index behind that of the last training order.
-size_t EndOfTrainingOrders(const RecordedRun& run) {
-  size_t end = run.orders.size();
-  while (run.orders[end - 1].kind != OrderKind::kTrain) {
-    --end;
-  }
-  return end;
+std::vector<Order> TrainingOrders(const RecordedRun& run) {
+  std::vector<Order> training;
+  std::copy_if(run.orders.begin(), run.orders.end(), std::back_inserter(training),
+               [](const Order& order) { return order.kind == OrderKind::kTrain; });
+  return training;
 }
 
-TEST(TrainerOrders, CountWithoutGapAndCarryTheSeed) {
+/// Training episodes that are committed when the training order with this number is written.
+int64_t CommittedBefore(int64_t number) {
+  return std::max<int64_t>(0, number - kWindow + 1);
+}
+
+TEST(TrainerOrders, CountWithoutGap) {
   RecordedRun run;
   run.Finish();
   // By hand: 371 updates, 53 versions; evaluated are 4, 8, .. 52 and in the end the last.
   ASSERT_EQ(run.orders.size(), static_cast<size_t>(kEpisodes + 13 + 1));
   for (size_t index = 0; index < run.orders.size(); ++index) {
     EXPECT_EQ(run.orders[index].index, static_cast<int64_t>(index));
-    EXPECT_EQ(run.orders[index].seed, 5u);
   }
   EXPECT_EQ(TrainingOrders(run, run.orders.size()), kEpisodes);
 }
 
-TEST(TrainerOrders, KeepTheWindowFullUntilTheTrainingOrdersRunOut) {
+TEST(TrainerOrders, CarryASeedOfTheirOwnForEveryTrainingEpisode) {
   RecordedRun run;
-  EXPECT_EQ(run.orders_at_begin, kWindow);
   run.Finish();
-  const size_t end = EndOfTrainingOrders(run);
+  RecordedRun other(Settings{{"schedule.seed", "6"}});
+  std::set<uint64_t> seeds;
+  for (const Order& order : TrainingOrders(run)) {
+    EXPECT_EQ(order.seed, EpisodeSeed(5, static_cast<int64_t>(seeds.size())));
+    seeds.insert(order.seed);
+  }
+  EXPECT_EQ(seeds.size(), static_cast<size_t>(kEpisodes));
+  EXPECT_FALSE(seeds.contains(other.orders.front().seed));
+}
+
+TEST(TrainerOrders, KeepTheWindowFullOfTrainingOrdersUntilTheseRunOut) {
+  RecordedRun run;
+  EXPECT_EQ(run.orders_at_begin, static_cast<size_t>(kWindow));
+  run.Finish();
   for (size_t committed = 1; committed <= run.episodes.size(); ++committed) {
-    const size_t before = committed == 1 ? kWindow : run.orders_written[committed - 2];
-    const size_t in_flight = run.orders_written[committed - 1] - committed;
-    EXPECT_LE(in_flight, kWindow) << committed;
-    if (before < end) {
-      EXPECT_EQ(in_flight, kWindow) << committed;
-    }
+    const size_t written = run.orders_written[committed - 1];
+    const int64_t episodes = TrainingOrders(run, committed);
+    EXPECT_EQ(TrainingOrders(run, written) - episodes, std::min(kWindow, kEpisodes - episodes)) << committed;
+    EXPECT_LE(static_cast<int64_t>(written - committed), MaximumOrdersInFlight(kWindow)) << committed;
   }
   EXPECT_EQ(run.orders_written.back(), run.episodes.size());
 }
@@ -70,14 +86,14 @@ TEST(TrainerOrders, KeepTheWindowFullUntilTheTrainingOrdersRunOut) {
 TEST(TrainerOrders, NameTheVersionsOfTheMomentWhenTheEpisodeAWindowBeforeWasCommitted) {
   RecordedRun run;
   run.Finish();
-  const size_t end = EndOfTrainingOrders(run);
-  for (size_t index = 0; index < end; ++index) {
-    const size_t committed = index < kWindow ? 0 : index - kWindow + 1;
-    const int64_t updates = UpdatesAfter(TrainingOrders(run, committed));
-    EXPECT_EQ(run.orders[index].current_version, updates / 7) << index;
-    EXPECT_EQ(run.orders[index].target_version, updates / 20) << index;
+  int64_t number = 0;
+  for (const Order& order : TrainingOrders(run)) {
+    const int64_t updates = UpdatesAfter(CommittedBefore(number));
+    EXPECT_EQ(order.current_version, updates / 7) << number;
+    EXPECT_EQ(order.target_version, updates / 20) << number;
+    ++number;
   }
-  EXPECT_GT(run.orders[end - 1].current_version, 40);
+  EXPECT_GT(TrainingOrders(run).back().current_version, 40);
 }
 
 TEST(TrainerOrders, ExploreByTheLadderOfTheTrainingEpisodes) {
@@ -97,28 +113,58 @@ TEST(TrainerOrders, ExploreByTheLadderOfTheTrainingEpisodes) {
 TEST(TrainerOrders, ExploreLessWithEveryTransitionCommittedWhenTheyAreWritten) {
   RecordedRun run(Settings{{"schedule.linear.decrement", "0.002"}, {"schedule.linear.minimum", "0.1"}});
   run.Finish();
-  for (size_t index = 0; index < EndOfTrainingOrders(run); ++index) {
-    const size_t committed = index < kWindow ? 0 : index - kWindow + 1;
-    const auto transitions = static_cast<double>(kTransitions * TrainingOrders(run, committed));
-    const double expected =
-        run.orders[index].kind == OrderKind::kEvaluate ? 0 : std::max(0.1, 0.9 - 0.002 * transitions);
-    EXPECT_NEAR(run.orders[index].epsilon, expected, 1e-12) << index;
+  int64_t number = 0;
+  for (const Order& order : TrainingOrders(run)) {
+    const auto transitions = static_cast<double>(kTransitions * CommittedBefore(number));
+    EXPECT_NEAR(order.epsilon, std::max(0.1, 0.9 - 0.002 * transitions), 1e-12) << number;
+    ++number;
   }
 }
 
-TEST(TrainerOrders, EvaluateWithTheNextOrderOnceFourVersionsMoreAreThere) {
+TEST(TrainerOrders, EvaluateBesideTheNextTrainingOrderOnceFourVersionsMoreAreThere) {
   RecordedRun run;
   run.Finish();
-  const size_t end = EndOfTrainingOrders(run);
-  int evaluations = 0;
-  for (size_t index = kWindow; index < end; ++index) {
-    const int64_t before = UpdatesAfter(TrainingOrders(run, index - kWindow)) / 7;
-    const int64_t after = UpdatesAfter(TrainingOrders(run, index - kWindow + 1)) / 7;
-    const bool due = before / 4 != after / 4;
-    EXPECT_EQ(run.orders[index].kind == OrderKind::kEvaluate, due) << index;
-    evaluations += due ? 1 : 0;
+  std::vector<int64_t> found;
+  for (size_t committed = 1; committed <= run.episodes.size(); ++committed) {
+    const size_t before = committed == 1 ? run.orders_at_begin : run.orders_written[committed - 2];
+    for (size_t index = before; index < run.orders_written[committed - 1]; ++index) {
+      if (run.orders[index].kind == OrderKind::kEvaluate) {
+        EXPECT_EQ(index, before) << "the evaluation comes first";
+        EXPECT_EQ(run.orders[index].current_version, UpdatesAfter(TrainingOrders(run, committed)) / 7);
+        found.push_back(TrainingOrders(run, committed));
+      }
+    }
   }
-  EXPECT_GE(evaluations, 11);
+  std::vector<int64_t> expected;
+  for (int64_t episode = 1; episode < kEpisodes; ++episode) {
+    if (UpdatesAfter(episode - 1) / 7 / 4 != UpdatesAfter(episode) / 7 / 4) {
+      expected.push_back(episode);
+    }
+  }
+  expected.push_back(kEpisodes);  // the final evaluation
+  EXPECT_EQ(found, expected);
+}
+
+TEST(TrainerOrders, AreTheSameForTrainingHoweverManyEvaluationsStandBesideThem) {
+  RecordedRun usual;
+  usual.Finish();
+  // At most one evaluation an episode, and the final one: 371 updates make 53 versions, of which an episode of 6
+  // or 7 updates makes one at most.
+  for (const auto& [versions_per_evaluation, evaluations] :
+       {std::pair("1", 53u + 1), std::pair("2", 26u + 1), std::pair("1000000", 1u)}) {
+    RecordedRun run(Settings{{"schedule.versions_per_evaluation", versions_per_evaluation}});
+    run.Finish();
+    EXPECT_NEAR(run.evaluations.size(), evaluations, 1) << versions_per_evaluation;  // the last may be the final one
+    EXPECT_TRUE(run.trainer.current() == usual.trainer.current()) << versions_per_evaluation;
+    const std::vector<Order> expected = TrainingOrders(usual);
+    const std::vector<Order> found = TrainingOrders(run);
+    ASSERT_EQ(found.size(), expected.size());
+    for (size_t number = 0; number < expected.size(); ++number) {
+      Order order = found[number];
+      order.index = expected[number].index;
+      EXPECT_EQ(order, expected[number]) << number;
+    }
+  }
 }
 
 TEST(TrainerOrders, AreNoMoreThanTheEpisodesWhereTheWindowIsLarger) {
@@ -134,9 +180,10 @@ TEST(TrainerOrders, AreNoMoreThanTheEpisodesWhereTheWindowIsLarger) {
 TEST(TrainerOrders, FollowOneByOneInAWindowOfOne) {
   RecordedRun run(Settings{{"schedule.window", "1"}, {"schedule.episodes", "9"}});
   while (!run.trainer.finished()) {
-    ASSERT_EQ(run.orders.size(), run.episodes.size() + 1);
+    const int64_t episodes = TrainingOrders(run, run.episodes.size());
+    ASSERT_EQ(TrainingOrders(run, run.orders.size()), std::min<int64_t>(9, episodes + 1));
     if (run.next().kind == OrderKind::kTrain) {
-      EXPECT_EQ(run.next().current_version, UpdatesAfter(TrainingOrders(run, run.episodes.size())) / 7);
+      EXPECT_EQ(run.next().current_version, UpdatesAfter(episodes) / 7);
     }
     run.Commit(run.Fly(run.next()));
   }

@@ -13,8 +13,6 @@ class CheckpointFile : public ::testing::Test {
   CheckpointFile() : checkpoint_{Experiment::Parse("agent { hidden_layers: [3] }", "a test"), 0xfeedu, -5} {
     TrainingState& training = checkpoint_.training;
     training.progress = {11, 10, 700, 650, 690, 6, 2, 0.25, 1e-3, 0.5, 12.5};
-    training.training_orders = 14;
-    training.evaluation_due = true;
     training.orders = {{{11, OrderKind::kEvaluate, 0, 9, 6, 2}, 640},
                        {{12, OrderKind::kTrain, 0.125, 9, 6, 2}, 650}};
     training.versions = {{NetworkKind::kCurrent, 6, 600, Shared(1)},
@@ -76,8 +74,6 @@ TEST_F(CheckpointFile, ReadsBackEveryField) {
   EXPECT_EQ(training.last_evaluation->figures.average_aoi, 1.5);
   EXPECT_EQ(training.best->evaluation.version, 4);
   EXPECT_TRUE(*training.best->parameters == Parameters(7));
-  EXPECT_TRUE(training.evaluation_due);
-  EXPECT_FALSE(training.final_evaluation_written);
 }
 
 TEST_F(CheckpointFile, IsTheSameBytesWrittenAgain) {

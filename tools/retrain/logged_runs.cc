@@ -17,6 +17,7 @@ class Runs {
  public:
   void Take(const run_t& message) {
     Entry& entry = Of(IdentityOf(message));
+    entry.run.protocol_version = message.protocol_version;
     entry.run.arithmetic_fingerprint = message.arithmetic_fingerprint;
     if (!entry.run.config_text) {
       entry.run.config_text = entry.announcements.Add(message);
@@ -80,6 +81,16 @@ LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string&
                    : run_id.empty()
                        ? fmt::format("several runs are in the log; name one with --run ID:{}", known)
                        : fmt::format("--run: no run {} is in the log, but{}", run_id, known));
+}
+
+void ExpectOrdersOfThisRelease(const LoggedRun& run) {
+  if (run.protocol_version && *run.protocol_version != kProtocolVersion) {
+    throw UsageError(fmt::format(
+        "run {} was recorded with protocol version {}, this program has version {}: its orders mean other "
+        "episodes here, so the same weights can't come out; use the release that recorded it, or train "
+        "another agent on its episodes (another schedule or agent, with --set)",
+        RunIdText(run), *run.protocol_version, kProtocolVersion));
+  }
 }
 
 }  // namespace fresco

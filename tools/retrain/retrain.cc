@@ -65,6 +65,7 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
           ? Experiment::Parse(*run.config_text, "the recorded configuration", SettingsFrom(options))
           : Experiment::Load(options.config, SettingsFrom(options));
   if (chosen.hash() == run.identity.config_hash) {
+    ExpectOrdersOfThisRelease(run);
     return {recorded, chosen, Retraining::Use::kSameRun};
   }
   if (!recorded) {

@@ -18,7 +18,7 @@ Retraining::Retraining(const Experiment& experiment, const World& world, LoggedE
       episodes_(&episodes),
       use_(use),
       strict_(strict),
-      flyer_(world, experiment, experiment.schedule().window()),
+      flyer_(world, experiment, static_cast<int>(MaximumOrdersInFlight(experiment.schedule().window()))),
       trainer_(experiment, world, Output(std::move(evaluated))) {
   if (use == Use::kExperience) {
     const std::vector<int64_t> training = episodes.Training();

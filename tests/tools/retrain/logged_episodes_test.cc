@@ -177,6 +177,7 @@ TEST_F(LoggedEpisodesTest, FindsTheRunsOfALogAndTheirConfiguration) {
   EXPECT_EQ(runs[0].identity, Identity(live_));
   EXPECT_EQ(runs[0].config_text, live_.experiment.Text());
   EXPECT_EQ(runs[0].arithmetic_fingerprint, ArithmeticFingerprint());
+  EXPECT_EQ(runs[0].protocol_version, kProtocolVersion);
   EXPECT_GE(runs[0].transitions_messages, static_cast<int64_t>(live_.episodes.size()));
   EXPECT_EQ(runs[1].identity, Identity(live_, 78));
   EXPECT_EQ(runs[1].config_text, std::nullopt);
@@ -187,6 +188,15 @@ TEST_F(LoggedEpisodesTest, FindsTheRunsOfALogAndTheirConfiguration) {
                                                   HasSubstr("000000000000004e"))));
   EXPECT_THAT([&] { ChooseLoggedRun(runs, "4f"); }, ThrowsMessage<Error>(HasSubstr("no run 4f")));
   EXPECT_THAT([] { ChooseLoggedRun({}, ""); }, ThrowsMessage<Error>(HasSubstr("no run of Fresco")));
+}
+
+TEST(LoggedRuns, OfAnotherReleaseAreNoRunsOfThisOne) {
+  LoggedRun run;
+  ExpectOrdersOfThisRelease(run);  // nothing was recorded that contradicts
+  run.protocol_version = kProtocolVersion;
+  ExpectOrdersOfThisRelease(run);
+  run.protocol_version = kProtocolVersion - 1;
+  EXPECT_THAT([&] { ExpectOrdersOfThisRelease(run); }, ThrowsMessage<Error>(HasSubstr("protocol version 3")));
 }
 
 }  // namespace
