@@ -5,13 +5,15 @@ include_guard(GLOBAL)
 find_path(LCM_INCLUDE_DIR lcm/lcm.h REQUIRED)
 find_library(LCM_LIBRARY lcm REQUIRED)
 find_program(LCM_GEN lcm-gen REQUIRED)
+set(FRESCO_DESCRIBE_MESSAGES ${CMAKE_SOURCE_DIR}/msgs/describe_messages.py)
 
 add_library(fresco_lcm INTERFACE)
 target_include_directories(fresco_lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
 target_link_libraries(fresco_lcm INTERFACE ${LCM_LIBRARY})
 
 # fresco_lcm_types(target package file.lcm...): an interface target with the generated C++ types,
-# included as "<package>/<type>.hpp". Each file.lcm defines exactly the struct of its name.
+# included as "<package>/<type>.hpp". Each file.lcm defines exactly the struct of its name. What LCM's own code
+# does not tell of them is in "<package>/message_descriptions.hpp".
 function(fresco_lcm_types target package)
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/lcm-cpp)
   file(MAKE_DIRECTORY ${directory})
@@ -25,12 +27,16 @@ function(fresco_lcm_types target package)
       COMMENT "lcm-gen ${source}" VERBATIM)
     list(APPEND outputs ${output})
   endforeach()
-  add_custom_target(${target}_generate DEPENDS ${outputs})
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+  set(descriptions ${directory}/${package}/message_descriptions.hpp)
+  add_custom_command(OUTPUT ${descriptions}
+    COMMAND Python3::Interpreter ${FRESCO_DESCRIBE_MESSAGES} --cpp ${descriptions} ${sources}
+    DEPENDS ${FRESCO_DESCRIBE_MESSAGES} ${sources} COMMENT "describe the messages" VERBATIM)
+  add_custom_target(${target}_generate DEPENDS ${outputs} ${descriptions})
   add_library(${target} INTERFACE)
   add_dependencies(${target} ${target}_generate)
   target_include_directories(${target} SYSTEM INTERFACE ${directory})
   target_link_libraries(${target} INTERFACE fresco_lcm)
-  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   set_target_properties(${target} PROPERTIES FRESCO_LCM_SOURCES "${sources}")
 endfunction()
 
@@ -49,4 +55,15 @@ function(fresco_lcm_java_sources variable target package)
     list(APPEND outputs ${output})
   endforeach()
   set(${variable} ${outputs} PARENT_SCOPE)
+endfunction()
+
+# fresco_lcm_java_descriptions(variable target): sets the variable to a Java source, MessageTypes.java, that
+# describes the messages of a target that fresco_lcm_types made.
+function(fresco_lcm_java_descriptions variable target)
+  get_target_property(sources ${target} FRESCO_LCM_SOURCES)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/java/MessageTypes.java)
+  add_custom_command(OUTPUT ${output}
+    COMMAND Python3::Interpreter ${FRESCO_DESCRIBE_MESSAGES} --java ${output} ${sources}
+    DEPENDS ${FRESCO_DESCRIBE_MESSAGES} ${sources} COMMENT "describe the messages for Java" VERBATIM)
+  set(${variable} ${output} PARENT_SCOPE)
 endfunction()

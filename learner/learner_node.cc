@@ -102,7 +102,7 @@ void LearnerNode::SetFinishing(const std::string& waiting_for) {
 
 void LearnerNode::SetWarning(const std::string& warning) {
   const std::lock_guard lock(mutex_);
-  warning_ = warning.substr(0, kMaximumTextBytes);
+  warning_ = warning.substr(0, kMaximumWarningBytes);
 }
 
 std::optional<CommittedEpisode> LearnerNode::WaitForNext(int64_t timeout_us) {

@@ -64,7 +64,7 @@ learner_status_t LearnerNode::Status(int64_t now_us) {
   status.rejected = counters.rejected;
   status.lost = counters.lost;
   status.reordered_episodes = counters.reordered_episodes;
-  status.waiting_for = WaitingForLocked().substr(0, kMaximumTextBytes);
+  status.waiting_for = WaitingForLocked().substr(0, kMaximumWaitingForBytes);
   status.warning = warning_;
   return status;
 }

@@ -143,12 +143,6 @@ Scenario ToScenario(const proto::Scenario& from) {
 Scenario CheckedScenario(const proto::Scenario& from) {
   Scenario scenario = ToScenario(from);
   const World checked(scenario);
-  if (checked.sensors() > kMaximumSensors) {
-    throw UsageError(
-        fmt::format("scenario.sensor: {} sensors; allowed: 1 to {} (a transition must fit one "
-                    "Ethernet frame)",
-                    checked.sensors(), kMaximumSensors));
-  }
   return scenario;
 }
 

@@ -10,13 +10,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/big_endian.h"
 #include "msgs/wire.h"
 
 namespace fresco {
-
-/// Every message of Fresco that stands on a channel of its own.
-using MessageTypes = std::tuple<run_t, orders_t, transitions_t, weights_t, actor_status_t, learner_status_t,
-                                scenario_t, flight_t>;
 
 /// The message without the tag behind it, where it carries one (see CarriesAuthentication). Checks no key.
 std::span<const std::byte> WithoutAuthentication(std::span<const std::byte> bytes);
@@ -24,15 +21,8 @@ std::span<const std::byte> WithoutAuthentication(std::span<const std::byte> byte
 /// Whether the bytes begin with the fingerprint of this type. LCM's own, which covers every field.
 template <class Message>
 bool BeginsAs(std::span<const std::byte> bytes) {
-  constexpr size_t kFingerprintBytes = 8;
-  if (bytes.size() < kFingerprintBytes) {
-    return false;
-  }
-  uint64_t fingerprint = 0;
-  for (const std::byte byte : bytes.first(kFingerprintBytes)) {
-    fingerprint = fingerprint << 8 | std::to_integer<uint64_t>(byte);
-  }
-  return fingerprint == static_cast<uint64_t>(Message::getHash());
+  return bytes.size() >= sizeof(uint64_t) &&
+         ReadBigEndian<uint64_t>(bytes.data()) == static_cast<uint64_t>(Message::getHash());
 }
 
 class MessageDecoder {

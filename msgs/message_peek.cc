@@ -2,22 +2,18 @@
 
 #include <type_traits>
 
+#include "core/big_endian.h"
+
 namespace fresco {
 namespace {
 
-// Behind LCM's fingerprint: utime, run_id, config_hash, then every count.
-constexpr size_t kRunIdOffset = 16;
-constexpr size_t kConfigHashOffset = 24;
-constexpr size_t kCountsOffset = 32;
+using Fields = Description<transitions_t>;
+constexpr size_t kIdentityEnd = Fields::transition_count_offset;  // the same in every message
 
 template <class Integer>
 Integer IntegerAt(std::span<const std::byte> bytes, size_t offset) {
-  std::make_unsigned_t<Integer> value = 0;
-  for (const std::byte byte : bytes.subspan(offset, sizeof(Integer))) {
-    value = static_cast<std::make_unsigned_t<Integer>>(value << 8 |
-                                                       std::to_integer<std::make_unsigned_t<Integer>>(byte));
-  }
-  return static_cast<Integer>(value);
+  const auto place = bytes.subspan(offset, sizeof(Integer));
+  return static_cast<Integer>(ReadBigEndian<std::make_unsigned_t<Integer>>(place.data()));
 }
 
 template <class... Message>
@@ -28,19 +24,15 @@ const char* NameOf(std::span<const std::byte> bytes, const std::tuple<Message...
 }
 
 RunIdentity IdentityAt(std::span<const std::byte> bytes) {
-  return {IntegerAt<int64_t>(bytes, kRunIdOffset),
-          static_cast<uint32_t>(IntegerAt<int64_t>(bytes, kConfigHashOffset))};
+  return {IntegerAt<int64_t>(bytes, Fields::run_id_offset),
+          static_cast<uint32_t>(IntegerAt<int64_t>(bytes, Fields::config_hash_offset))};
 }
 
-/// The bytes of a transitions_t of these counts, as its .lcm file lists them.
+/// The bytes that a transitions_t with these counts has.
 size_t TransitionsBytes(std::span<const std::byte> encoding) {
-  const auto count = [&](size_t place) {
-    return static_cast<size_t>(IntegerAt<int32_t>(encoding, kCountsOffset + 4 * place));
-  };
-  constexpr size_t kFixedBytes = kCountsOffset + 4 * 4 + 8 + 8 + 4 + 1;
-  const size_t state_bytes = 3 * 2 + 4 + 2 * count(2);
-  const size_t transition_bytes = 2 + 4 + 4 + count(3);
-  return kFixedBytes + count(1) * state_bytes + count(0) * transition_bytes;
+  const auto count = [&](size_t offset) { return static_cast<size_t>(IntegerAt<int32_t>(encoding, offset)); };
+  return Fields::EncodedBytes(count(Fields::transition_count_offset), count(Fields::state_count_offset),
+                              count(Fields::sensor_count_offset), count(Fields::mask_size_offset));
 }
 
 }  // namespace
@@ -50,7 +42,7 @@ const char* PeekType(std::span<const std::byte> bytes) {
 }
 
 std::optional<RunIdentity> PeekIdentity(std::span<const std::byte> bytes) {
-  if (bytes.size() < kCountsOffset || PeekType(bytes) == nullptr) {
+  if (bytes.size() < kIdentityEnd || PeekType(bytes) == nullptr) {
     return std::nullopt;
   }
   return IdentityAt(bytes);
@@ -64,17 +56,15 @@ std::optional<TransitionsHeader> PeekTransitions(std::span<const std::byte> byte
   if (encoding.empty()) {
     encoding = WithoutTrailer(WithoutAuthentication(bytes));
   }
-  constexpr size_t kOrderOffset = kCountsOffset + 4 * 4;
-  if (!CountsAreAllowed(encoding, CountMaxima(transitions_t{})) ||
-      encoding.size() != TransitionsBytes(encoding)) {
+  if (!CountsAreAllowed(encoding, Fields::kCountMaxima) || encoding.size() != TransitionsBytes(encoding)) {
     return std::nullopt;
   }
   return TransitionsHeader{IdentityAt(encoding),
-                           IntegerAt<int32_t>(encoding, kCountsOffset),
-                           IntegerAt<int64_t>(encoding, kOrderOffset),
-                           IntegerAt<int64_t>(encoding, kOrderOffset + 8),
-                           IntegerAt<int32_t>(encoding, kOrderOffset + 16),
-                           IntegerAt<int8_t>(encoding, kOrderOffset + 20) != 0};
+                           IntegerAt<int32_t>(encoding, Fields::transition_count_offset),
+                           IntegerAt<int64_t>(encoding, Fields::order_index_offset),
+                           IntegerAt<int64_t>(encoding, Fields::actor_id_offset),
+                           IntegerAt<int32_t>(encoding, Fields::first_transition_offset),
+                           IntegerAt<int8_t>(encoding, Fields::outcome_offset) != 0};
 }
 
 }  // namespace fresco

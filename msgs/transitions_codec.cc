@@ -8,21 +8,19 @@
 namespace fresco {
 namespace {
 
-// Encoded bytes of a transitions_t: fingerprint, identity, four counts, the scalars; then per state
-// and per transition, as msgs/lcm/transitions_t.lcm lists them.
-constexpr size_t kFixedBytes = 8 + 3 * 8 + 4 * 4 + 8 + 8 + 4 + 1;
-constexpr size_t StateBytes(int sensors) {
-  return 3 * 2 + 4 + 2 * static_cast<size_t>(sensors);
-}
-constexpr size_t TransitionBytes(int sensors) {
-  return 2 + 4 + 4 + (static_cast<size_t>(kMoves * (sensors + 1)) + 7) / 8;
-}
 constexpr int FittingTransitions(int sensors) {
-  return static_cast<int>((kMaximumEncodedBytes - kFixedBytes - StateBytes(sensors)) /
-                          (StateBytes(sensors) + TransitionBytes(sensors)));
+  const auto mask_size = static_cast<size_t>(kMoves * (sensors + 1) + 7) / 8;
+  size_t fitting = 0;
+  while (Description<transitions_t>::EncodedBytes(fitting + 1, fitting + 2, static_cast<size_t>(sensors),
+                                                  mask_size) <= kMaximumEncodedBytes) {
+    ++fitting;
+  }
+  return static_cast<int>(fitting);
 }
 static_assert(FittingTransitions(kMaximumSensors) >= 1);
-static_assert(FittingTransitions(1) <= 128, "wire.h allows up to 128 transitions a message");
+static_assert(FittingTransitions(1) <= kMaximumTransitionsPerMessage);
+static_assert(kMaximumSensors == transitions_t::MAXIMUM_SENSOR_COUNT);
+static_assert(kMaximumSensors == flight_t::MAXIMUM_SENSOR_COUNT);
 
 void AddState(const State& state, transitions_t& message) {
   message.column.push_back(static_cast<int16_t>(state.cell.column));

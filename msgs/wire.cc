@@ -11,8 +11,7 @@
 namespace fresco {
 namespace {
 
-constexpr size_t kFingerprintBytes = 8;
-constexpr size_t kIdentityBytes = 3 * sizeof(int64_t);
+constexpr size_t kFirstCountOffset = Description<orders_t>::order_count_offset;  // the same in every message
 
 static_assert(kTrailerBytes + kAuthenticationTagBytes <= kReservedTrailerBytes);
 
@@ -45,8 +44,8 @@ void AppendTrailer(int encoded, std::vector<std::byte>& bytes) {
   }
 }
 
-bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list<int32_t> maxima) {
-  size_t offset = kFingerprintBytes + kIdentityBytes;
+bool CountsAreAllowed(std::span<const std::byte> encoding, std::span<const int32_t> maxima) {
+  size_t offset = kFirstCountOffset;
   if (encoding.size() < offset + maxima.size() * sizeof(int32_t)) {
     return false;
   }

@@ -6,19 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <initializer_list>
 #include <span>
 #include <type_traits>
 #include <vector>
 
-#include "fresco/actor_status_t.hpp"
-#include "fresco/flight_t.hpp"
-#include "fresco/learner_status_t.hpp"
-#include "fresco/orders_t.hpp"
-#include "fresco/run_t.hpp"
-#include "fresco/scenario_t.hpp"
-#include "fresco/transitions_t.hpp"
-#include "fresco/weights_t.hpp"
+#include "fresco/message_descriptions.hpp"
 
 namespace fresco {
 
@@ -34,17 +26,19 @@ inline constexpr size_t kReservedTrailerBytes = 48;
 inline constexpr size_t kTrailerBytes = sizeof(uint32_t);
 inline constexpr size_t kMaximumEncodedBytes = kMaximumMessageBytes - kReservedTrailerBytes;
 
-inline constexpr int kMaximumOrdersPerMessage = 27;
-inline constexpr int kMaximumPartBytes = 1100;
-inline constexpr int kMaximumParts = 1024;
-inline constexpr int kMaximumHeldVersions = 32;
-inline constexpr int kMaximumMissingRanges = 32;
-inline constexpr int kMaximumSensors = 250;
-inline constexpr int kMaximumSensorsPerScenario = 48;
-inline constexpr size_t kMaximumHostBytes = 64;
-/// Of what a learner status says to people, in each of its two texts, and of the name of a policy.
-inline constexpr size_t kMaximumTextBytes = 240;
-inline constexpr int kValuesPerChunk = 308;
+// The limits of the .lcm files, as numbers.
+inline constexpr int kMaximumOrdersPerMessage = orders_t::MAXIMUM_ORDER_COUNT;
+inline constexpr int kMaximumTransitionsPerMessage = transitions_t::MAXIMUM_TRANSITION_COUNT;
+inline constexpr int kMaximumPartBytes = run_t::MAXIMUM_PART_SIZE;
+inline constexpr int kMaximumParts = run_t::MAXIMUM_PART_COUNT;
+inline constexpr int kMaximumHeldVersions = actor_status_t::MAXIMUM_HELD_COUNT;
+inline constexpr int kMaximumMissingRanges = actor_status_t::MAXIMUM_MISSING_COUNT;
+inline constexpr int kMaximumSensorsPerScenario = scenario_t::MAXIMUM_SENSOR_COUNT;
+inline constexpr size_t kMaximumHostBytes = actor_status_t::MAXIMUM_HOST_BYTES;
+inline constexpr size_t kMaximumWaitingForBytes = learner_status_t::MAXIMUM_WAITING_FOR_BYTES;
+inline constexpr size_t kMaximumWarningBytes = learner_status_t::MAXIMUM_WARNING_BYTES;
+inline constexpr size_t kMaximumPolicyBytes = flight_t::MAXIMUM_POLICY_BYTES;
+inline constexpr int kValuesPerChunk = weights_t::MAXIMUM_VALUE_COUNT;
 
 /// Which run a message belongs to: its run_id and the hash of the run's configuration.
 struct RunIdentity {
@@ -52,40 +46,6 @@ struct RunIdentity {
   uint32_t config_hash = 0;
   bool operator==(const RunIdentity&) const = default;
 };
-
-/// The largest allowed value of each count of a message, in the order of its fields.
-inline std::initializer_list<int32_t> CountMaxima(const run_t&) {
-  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumPartBytes};
-  return kMaxima;
-}
-inline std::initializer_list<int32_t> CountMaxima(const orders_t&) {
-  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumOrdersPerMessage};
-  return kMaxima;
-}
-inline std::initializer_list<int32_t> CountMaxima(const transitions_t&) {
-  static constexpr std::initializer_list<int32_t> kMaxima = {128, 129, kMaximumSensors,
-                                                             5 * (kMaximumSensors + 1) / 8 + 1};
-  return kMaxima;
-}
-inline std::initializer_list<int32_t> CountMaxima(const weights_t&) {
-  static constexpr std::initializer_list<int32_t> kMaxima = {kValuesPerChunk};
-  return kMaxima;
-}
-inline std::initializer_list<int32_t> CountMaxima(const actor_status_t&) {
-  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumHeldVersions, kMaximumMissingRanges};
-  return kMaxima;
-}
-inline std::initializer_list<int32_t> CountMaxima(const learner_status_t&) {
-  return {};
-}
-inline std::initializer_list<int32_t> CountMaxima(const scenario_t&) {
-  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumSensorsPerScenario};
-  return kMaxima;
-}
-inline std::initializer_list<int32_t> CountMaxima(const flight_t&) {
-  static constexpr std::initializer_list<int32_t> kMaxima = {kMaximumSensors};
-  return kMaxima;
-}
 
 /// LCM's encoding without the trailer; empty where the size is not allowed or the CRC does not hold.
 std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes);
@@ -98,32 +58,12 @@ bool CarriesAuthentication(std::span<const std::byte> bytes);
 void AppendTrailer(int encoded, std::vector<std::byte>& bytes);
 
 /// Whether the counts in the encoding lie in 0 .. maxima.
-bool CountsAreAllowed(std::span<const std::byte> encoding, std::initializer_list<int32_t> maxima);
+bool CountsAreAllowed(std::span<const std::byte> encoding, std::span<const int32_t> maxima);
 
 /// Whether `count` texts, one behind the other from `offset` on, lie within the encoding and are as an
 /// encoder writes them: a length of four bytes and one NUL, at the end. LCM's decoders subtract one from any
 /// length and take any byte for the NUL; its encoders stop at the first.
 bool TextsAreAllowed(std::span<const std::byte> encoding, size_t offset, int count);
-
-/// How many texts a message has. They stand behind the fields of fixed size.
-template <class Message>
-inline constexpr int kTexts = 0;
-template <>
-inline constexpr int kTexts<actor_status_t> = 1;
-template <>
-inline constexpr int kTexts<learner_status_t> = 2;
-template <>
-inline constexpr int kTexts<flight_t> = 1;
-
-template <class Message>
-bool TextsAreAllowed(std::span<const std::byte> encoding, const Message&) {
-  if constexpr (kTexts < Message >> 0) {
-    constexpr size_t kEmptyTextBytes = sizeof(int32_t) + 1;
-    const auto empty_bytes = static_cast<size_t>(Message{}.getEncodedSize());
-    return TextsAreAllowed(encoding, empty_bytes - kTexts<Message> * kEmptyTextBytes, kTexts<Message>);
-  }
-  return true;
-}
 
 /// Decodes a message; false where it is corrupt, of another type, malformed, oversized or longer
 /// than its content. What decodes encodes to the same bytes again. Never throws, never allocates more than
@@ -131,7 +71,9 @@ bool TextsAreAllowed(std::span<const std::byte> encoding, const Message&) {
 template <class Message>
 bool Decode(std::span<const std::byte> bytes, Message& message) {
   const std::span<const std::byte> encoding = WithoutTrailer(bytes);
-  if (!CountsAreAllowed(encoding, CountMaxima(message)) || !TextsAreAllowed(encoding, message)) {
+  using Fields = Description<Message>;
+  if (!CountsAreAllowed(encoding, Fields::kCountMaxima) ||
+      !TextsAreAllowed(encoding, Fields::kFixedBytes, Fields::kTexts)) {
     return false;
   }
   try {
@@ -148,6 +90,14 @@ template <class Message>
 void Encode(const Message& message, std::vector<std::byte>& bytes) {
   bytes.resize(static_cast<size_t>(message.getEncodedSize()));
   AppendTrailer(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())), bytes);
+}
+
+/// Calls visit(const char* name, const auto& value) for every field of a message, or of an order_t or chunk_range_t
+/// in one, in the order of its .lcm file. Values are numbers, texts, vectors of these or of order_t and
+/// chunk_range_t, and vectors of vectors.
+template <class Message, class Visitor>
+void ForEachField(const Message& message, Visitor&& visit) {
+  Description<Message>::ForEachField(message, visit);
 }
 
 /// Sets utime to now, and the identity.

@@ -23,7 +23,7 @@ std::vector<flight_t> FlightMessages(const World& world, const Flight& flight, c
   std::vector<flight_t> messages;
   Environment environment(world);  // flown once more, for what a flight does not keep
   flight_t message{};
-  message.policy = policy.substr(0, kMaximumTextBytes);
+  message.policy = policy.substr(0, kMaximumPolicyBytes);
   for (const FlightSlot& slot : flight.slots) {
     SetState(world, environment.state(), message);
     message.remaining_energy_j = static_cast<float>(environment.remaining_energy_j());

@@ -10,7 +10,7 @@
 namespace fresco {
 
 /// One message for each slot of the flight, the terminal state included; without identity, and of flight 0.
-/// The name of the policy is cut to kMaximumTextBytes.
+/// The name of the policy is cut to kMaximumPolicyBytes.
 std::vector<flight_t> FlightMessages(const World& world, const Flight& flight, const std::string& policy);
 
 }  // namespace fresco

@@ -8,6 +8,9 @@
 
 namespace fresco {
 
+/// A transition of so many sensors still fits one Ethernet frame (msgs/lcm/transitions_t.lcm).
+inline constexpr int kMaximumSensors = 250;
+
 struct Cell {
   int column = 0;
   int row = 0;

@@ -14,7 +14,6 @@ namespace {
 // Bounds wide enough for any real device; they keep every derived number finite.
 constexpr double kSmallest = 1e-6;
 constexpr double kLargest = 1e6;
-constexpr int kMaximumSensors = 300;
 constexpr int kMaximumCellsASide = 1000;
 // Cells times sensors: World holds a byte for each, and a network's input up to eight. An actor takes its
 // scenario from the network, so nothing in it may eat the memory.

@@ -58,7 +58,7 @@ TEST_F(LearnerNodeTest, ShowsAWarningInItsStatusUntilItIsTakenBack) {
   node_.SetWarning("the last checkpoint could not be written: no space");
   EXPECT_EQ(NextStatus().warning, "the last checkpoint could not be written: no space");
   node_.SetWarning(std::string(5000, 'w'));
-  EXPECT_EQ(NextStatus().warning, std::string(kMaximumTextBytes, 'w'));
+  EXPECT_EQ(NextStatus().warning, std::string(kMaximumWarningBytes, 'w'));
   node_.SetWarning("");
   EXPECT_EQ(NextStatus().warning, "");
 }

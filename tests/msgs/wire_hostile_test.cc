@@ -84,9 +84,9 @@ TYPED_TEST(HostileWire, SurvivesEverySingleBitFlip) {
 }
 
 TYPED_TEST(HostileWire, RejectsAbsurdCounts) {
-  const auto maxima = CountMaxima(TypeParam{});
+  const auto maxima = Description<TypeParam>::kCountMaxima;
   for (size_t count = 0; count < maxima.size(); ++count) {
-    const int32_t maximum = maxima.begin()[count];
+    const int32_t maximum = maxima[count];
     for (const int32_t absurd : {-1, 500'000'000, maximum + 1, std::numeric_limits<int32_t>::min(),
                                  std::numeric_limits<int32_t>::max()}) {
       std::vector<std::byte> bytes = this->Valid(1);

@@ -48,8 +48,8 @@ actor_status_t FullActorStatus() {
 
 learner_status_t FullLearnerStatus() {
   learner_status_t message{};
-  message.waiting_for = std::string(kMaximumTextBytes, 'w');
-  message.warning = std::string(kMaximumTextBytes, 'w');
+  message.waiting_for = std::string(kMaximumWaitingForBytes, 'w');
+  message.warning = std::string(kMaximumWarningBytes, 'w');
   return message;
 }
 
@@ -60,7 +60,7 @@ scenario_t FullScenario() {
 
 flight_t FullFlight() {
   RandomStream stream(1, RandomPurpose::kTest, 79, 0);
-  return FlightOf(stream, kMaximumSensors, kMaximumTextBytes);
+  return FlightOf(stream, flight_t::MAXIMUM_SENSOR_COUNT, kMaximumPolicyBytes);
 }
 
 template <class Message>

@@ -73,7 +73,7 @@ TEST(FlightMessages, FitAFrameWhateverThePolicyIsCalled) {
     Encode(message, bytes);
     flight_t decoded{};
     ASSERT_TRUE(Decode(bytes, decoded));
-    EXPECT_EQ(decoded.policy, std::string(kMaximumTextBytes, 'p'));
+    EXPECT_EQ(decoded.policy, std::string(kMaximumPolicyBytes, 'p'));
   }
 }
 

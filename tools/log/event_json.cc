@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "msgs/message_fields.h"
+#include "msgs/wire.h"
 #include "msgs/message_peek.h"
 #include "tools/log/message_cells.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "msgs/message_fields.h"
+#include "msgs/wire.h"
 #include "uav/environment.h"
 #include "uav/world.h"
 

@@ -36,7 +36,7 @@ final class Episodes {
   private static boolean isSound(transitions_t message) {
     return message.transition_count >= 1 && message.state_count == message.transition_count + 1
         && message.sensor_count >= 1 && message.first_transition >= 0
-        && message.first_transition + message.transition_count < MessageTypes.MAXIMUM_SLOTS;
+        && message.first_transition + message.transition_count < Fields.MAXIMUM_SLOTS;
   }
 
   private static boolean isWhole(TreeMap<Integer, transitions_t> parts) {

@@ -1,5 +1,6 @@
 package fresco.spy;
 
+import fresco.flight_t;
 import fresco.scenario_t;
 import java.util.Arrays;
 import java.util.Map;
@@ -9,6 +10,7 @@ import java.util.Map;
  */
 final class Fields {
   private static final int REMEMBERED_RUNS = 16;
+  static final int MAXIMUM_SLOTS = 10_000;
   private static final int MAXIMUM_CELLS_A_SIDE = 1000;
   private static final double LARGEST = 1e9; // metres, joules
 
@@ -56,13 +58,13 @@ final class Fields {
         && isWithin(message.start_row, 0, message.rows - 1)
         && isWithin(message.stop_column, 0, message.columns - 1)
         && isWithin(message.stop_row, 0, message.rows - 1)
-        && isWithin(message.slots, 1, MessageTypes.MAXIMUM_SLOTS)
+        && isWithin(message.slots, 1, MAXIMUM_SLOTS)
         && isWithin(message.coverage_radius_m, 0, LARGEST)
         && isWithin(message.initial_energy_j, 0, Double.MAX_VALUE) && sensorsAreSound(message);
   }
 
   private static boolean sensorsAreSound(scenario_t message) {
-    boolean sound = isWithin(message.total_sensors, 1, MessageTypes.MAXIMUM_SENSORS)
+    boolean sound = isWithin(message.total_sensors, 1, flight_t.MAXIMUM_SENSOR_COUNT)
         && isWithin(message.first_sensor, 0, message.total_sensors - message.sensor_count);
     for (int i = 0; sound && i < message.sensor_count; ++i) {
       sound = isWithin(message.x_m[i], -LARGEST, LARGEST) && isWithin(message.y_m[i], -LARGEST, LARGEST)

@@ -8,7 +8,7 @@ final class LiveFlights {
 
   /** The flight that the message belongs to, its slot added; null where it is of no use. */
   Flight add(flight_t message) {
-    if (message.sensor_count < 1 || message.slot < 1 || message.slot > MessageTypes.MAXIMUM_SLOTS) {
+    if (message.sensor_count < 1 || message.slot < 1 || message.slot > Fields.MAXIMUM_SLOTS) {
       return null;
     }
     if (flight == null || !continues(message)) {

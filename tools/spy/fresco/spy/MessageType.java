@@ -1,8 +1,6 @@
 package fresco.spy;
 
-import java.io.ByteArrayOutputStream;
 import java.io.DataInput;
-import java.io.DataOutputStream;
 import java.io.IOException;
 import java.nio.ByteBuffer;
 import java.util.zip.CRC32C;
@@ -23,7 +21,6 @@ final class MessageType<M extends LCMEncodable> {
   private static final int CRC_BYTES = 4;
   private static final int TAG_BYTES = 32; // behind the CRC where the run has a key file
   private static final int FIRST_COUNT = 8 + 3 * 8; // behind fingerprint, utime, run_id, config_hash
-  private static final int EMPTY_TEXT_BYTES = 5; // a length, one NUL
 
   private final Decoder<M> decoder;
   private final int texts;
@@ -31,25 +28,15 @@ final class MessageType<M extends LCMEncodable> {
   private final int[] countMaxima;
 
   /**
-   * @param empty a message with empty texts and arrays
-   * @param texts how many texts it has; they stand behind the fields of fixed size
+   * @param firstText where the first text begins, in the encoding
+   * @param texts how many texts it has, one behind the other
    * @param countMaxima the largest allowed value of each count, in the order of the fields
    */
-  MessageType(Decoder<M> decoder, M empty, int texts, int... countMaxima) {
+  MessageType(Decoder<M> decoder, int firstText, int texts, int... countMaxima) {
     this.decoder = decoder;
+    this.firstText = firstText;
     this.texts = texts;
-    this.firstText = encodedBytes(empty) - texts * EMPTY_TEXT_BYTES;
     this.countMaxima = countMaxima;
-  }
-
-  private static int encodedBytes(LCMEncodable message) {
-    try {
-      ByteArrayOutputStream bytes = new ByteArrayOutputStream();
-      message.encode(new DataOutputStream(bytes));
-      return bytes.size();
-    } catch (IOException error) {
-      throw new IllegalStateException(error);
-    }
   }
 
   /**

@@ -1,6 +1,6 @@
-// Every field of every message is visited, once and in its place: held against the .lcm files and the sizes
-// of LCM's own encodings.
-#include "msgs/message_fields.h"
+// What the generator says of the messages, against the .lcm files read in another way and against LCM's own
+// encodings.
+#include "fresco/message_descriptions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -90,6 +90,46 @@ void ExpectSizes(const std::tuple<Message...>*) {
 
 TEST(ForEachField, HandsOutAsManyBytesAsLcmEncodes) {
   ExpectSizes(static_cast<const MessageTypes*>(nullptr));
+}
+
+/// Where the first text or array begins: the size of a message in which all are empty.
+template <class Message>
+void ExpectFixedBytes() {
+  constexpr size_t kEmptyTextBytes = sizeof(int32_t) + 1;
+  EXPECT_EQ(Description<Message>::kFixedBytes + Description<Message>::kTexts * kEmptyTextBytes,
+            static_cast<size_t>(Message{}.getEncodedSize()))
+      << Message::getTypeName();
+}
+
+template <class... Message>
+void ExpectFixedBytesOfAll(const std::tuple<Message...>*) {
+  (ExpectFixedBytes<Message>(), ...);
+}
+
+TEST(Description, KnowsTheBytesBeforeTheFirstTextOrArray) {
+  ExpectFixedBytesOfAll(static_cast<const MessageTypes*>(nullptr));
+}
+
+TEST(Description, KnowsWhereLcmWritesAField) {
+  learner_status_t message{};
+  message.optimum_proved = 0x5A;
+  message.reordered_episodes = 0x0123456789ABCDEF;
+  std::vector<std::byte> bytes;
+  Encode(message, bytes);
+  EXPECT_EQ(bytes[Description<learner_status_t>::optimum_proved_offset], std::byte{0x5A});
+  EXPECT_EQ(ReadBigEndian<uint64_t>(&bytes[Description<learner_status_t>::reordered_episodes_offset]),
+            0x0123456789ABCDEFu);
+}
+
+TEST(Description, KnowsTheBytesOfAMessageByItsCounts) {
+  RandomStream stream(7, RandomPurpose::kTest, 0, 0);
+  for (int i = 0; i < 10; ++i) {
+    const auto message = RandomMessage<transitions_t>(stream);
+    EXPECT_EQ(Description<transitions_t>::EncodedBytes(
+                  static_cast<size_t>(message.transition_count), static_cast<size_t>(message.state_count),
+                  static_cast<size_t>(message.sensor_count), static_cast<size_t>(message.mask_size)),
+              static_cast<size_t>(message.getEncodedSize()));
+  }
 }
 
 }  // namespace
