@@ -91,7 +91,7 @@ TEST(ConfigurationError, AllowsAsManySensorsAsFitAFrame) {
   }
   EXPECT_EQ(Experiment::Parse("scenario { " + sensors + "}", "my").scenario().sensors.size(), 250u);
   EXPECT_THAT(ErrorOf("scenario { " + sensors + "sensor {} }"),
-              AllOf(HasSubstr("scenario.sensor: 251"), HasSubstr("1 to 250")));
+              AllOf(HasSubstr("scenario.sensor: a count of 251"), HasSubstr("1 to 250")));
   EXPECT_THAT(ErrorOf("scenario { random_sensors { count: 251 } }"),
               HasSubstr("scenario.random_sensors.count: 251 is out of range; allowed: 1 to 250"));
 }
