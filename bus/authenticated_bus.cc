@@ -56,9 +56,7 @@ class AuthenticatedBus : public Bus {
     inner_->Subscribe(channel, authenticate, queue_capacity);
   }
 
-  void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
-    inner_->SubscribeToAll(std::move(handler), queue_capacity);
-  }
+  void SubscribeToAll(BusEventHandler handler) override { inner_->SubscribeToAll(std::move(handler)); }
 
   int Poll(int64_t timeout_us, int maximum_messages) override {
     return inner_->Poll(timeout_us, maximum_messages);
@@ -67,6 +65,8 @@ class AuthenticatedBus : public Bus {
   int64_t refused_messages() const override {
     return inner_->refused_messages() + refused_.load(std::memory_order_relaxed);
   }
+
+  UnheardTraffic unheard() const override { return inner_->unheard(); }
 
  private:
   std::unique_ptr<Bus> owned_;  // where it is this one's own

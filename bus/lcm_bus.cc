@@ -3,18 +3,24 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/lcm_datagram.h"
 #include "bus/lcm_url.h"
+#include "bus/multicast_listener.h"
 #include "bus/receive_filter.h"
+#include "core/check.h"
+#include "core/clock.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -33,11 +39,10 @@ std::string EscapeChannel(const std::string& channel) {
 }
 
 void CheckChannel(const std::string& channel) {
-  constexpr size_t kLongest = 63;  // LCM's
-  if (channel.size() > kLongest || channel.find('\0') != std::string::npos) {
+  if (channel.size() > kMaximumLcmChannelBytes || channel.find('\0') != std::string::npos) {
     throw UsageError(fmt::format(
         "LCM channel \"{}\": expected a name of up to {} bytes without a zero byte, found {} bytes", channel,
-        kLongest, channel.size()));
+        kMaximumLcmChannelBytes, channel.size()));
   }
 }
 
@@ -46,9 +51,7 @@ std::string Remedy(const std::string& url) {
     return "no LCM TCP server answers there; start one with: java -cp /usr/share/java/lcm.jar "
            "lcm.lcm.TCPService PORT";
   }
-  return "most likely no route covers multicast; as root: ip route add 224.0.0.0/4 dev lo (as another user: "
-         "unshare -Urn, then the same inside, after ip link set lo up), or the port is taken by another "
-         "program";
+  return kMulticastRemedy;
 }
 
 struct LcmDestroyer {
@@ -56,39 +59,19 @@ struct LcmDestroyer {
 };
 using Lcm = std::unique_ptr<lcm_t, LcmDestroyer>;
 
-/// With the socket that it receives with, and its own thread reading from it.
-Lcm OpenLcm(const std::string& url) {
-  Lcm lcm(lcm_create(url.c_str()));
-  // With tcpq LCM reports success although nobody answers; there is no descriptor then.
-  if (lcm == nullptr || lcm_get_fileno(lcm.get()) < 0) {
-    throw UsageError(fmt::format("can't open the LCM URL {}: {}", url, Remedy(url)));
-  }
-  return lcm;
-}
-
 class LcmBus : public Bus {
  public:
-  explicit LcmBus(const std::string& url) : url_(NormalizeLcmUrl(url)) {
-    const auto port = MulticastPort(url_);
-    if (!port) {
-      lcm_ = OpenLcm(url_);
-      return;
+  explicit LcmBus(const std::string& url)
+      : url_(NormalizeLcmUrl(url)), multicast_(MulticastEndpointOf(url_)), lcm_(lcm_create(url_.c_str())) {
+    // With tcpq LCM reports success although nobody answers; there is no descriptor then.
+    if (lcm_ == nullptr || (!multicast_ && lcm_get_fileno(lcm_.get()) < 0)) {
+      throw UsageError(fmt::format("can't open the LCM URL {}: {}", url_, Remedy(url_)));
     }
-    const std::lock_guard lock(Sockets());
-    const std::vector<int> before = ReceivingSockets(*port);
-    lcm_ = OpenLcm(url_);
-    std::vector<int> opened = ReceivingSockets(*port);
-    std::erase_if(
-        opened, [&](int socket) { return std::find(before.begin(), before.end(), socket) != before.end(); });
-    if (opened.size() != 1) {
-      throw Failure(fmt::format("{}: expected one new socket on UDP port {}, LCM's own, found {}", url_,
-                                *port, opened.size()));
-    }
-    filter_.emplace(opened.front());
   }
 
   ~LcmBus() override {
-    const std::lock_guard lock(Sockets());
+    const std::lock_guard lock(ReceivingSockets());
+    listener_.reset();
     lcm_.reset();
   }
 
@@ -103,34 +86,43 @@ class LcmBus : public Bus {
 
   void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
     CheckChannel(channel);
-    if (filter_) {
-      filter_->Pass(channel);
+    if (multicast_) {
+      LetThrough(channel);
     }
     SubscribeTo(
         EscapeChannel(channel),
         [handler = std::move(handler)](const LcmEvent& event) { handler(event.message); }, queue_capacity);
   }
 
-  void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
-    if (filter_) {
-      filter_->PassAll();
+  void SubscribeToAll(BusEventHandler handler) override {
+    if (multicast_) {
+      Listen();
+      hear_all_ = std::move(handler);
+    } else {
+      SubscribeTo(".*", std::move(handler), kDefaultQueueCapacity);
     }
-    SubscribeTo(".*", std::move(handler), queue_capacity);
   }
 
   int Poll(int64_t timeout_us, int maximum_messages) override {
+    const int64_t deadline_us = MonotonicMicroseconds() + timeout_us;
     int handled = 0;
-    while (handled < maximum_messages && WaitReadable(handled == 0 ? timeout_us : 0)) {
-      if (lcm_handle(lcm_.get()) != 0) {
-        throw Failure("the connection of " + url_ + " was lost");
+    while (handled < maximum_messages) {
+      const int64_t left_us = deadline_us - MonotonicMicroseconds();
+      const Readable readable = WaitReadable(handled == 0 ? left_us : 0);
+      if (!readable.lcm && !readable.listener) {
+        break;
       }
-      ++handled;
-      if (exception_) {
-        std::rethrow_exception(std::exchange(exception_, nullptr));
+      const int before = handled;
+      handled += readable.lcm ? HandleOne() : 0;
+      handled += readable.listener ? listener_->HandOut(hear_all_, maximum_messages - handled) : 0;
+      if (handled == before && left_us <= 0) {
+        break;  // what is read is not always a message
       }
     }
     return handled;
   }
+
+  UnheardTraffic unheard() const override { return listener_ ? listener_->unheard() : UnheardTraffic{}; }
 
  private:
   struct Subscription {
@@ -139,57 +131,111 @@ class LcmBus : public Bus {
     int64_t received = 0;
   };
 
-  /// LCM does not tell which socket is its own: held while a bus opens or closes one.
-  static std::mutex& Sockets() {
-    static std::mutex sockets;
-    return sockets;
+  struct Readable {
+    bool lcm;
+    bool listener;
+  };
+
+  /// Lets LCM receive messages of this channel. It opens its socket now if it has none yet, and reads
+  /// whatever is on the network until the filter is there.
+  void LetThrough(const std::string& channel) {
+    if (!filter_) {
+      const std::lock_guard lock(ReceivingSockets());
+      filter_.emplace(SocketOpenedBy(
+          [&] {
+            if (lcm_get_fileno(lcm_.get()) < 0) {
+              RefuseToSubscribe(channel);
+            }
+          },
+          multicast_->port));
+    }
+    filter_->Pass(channel);
+  }
+
+  void Listen() {
+    FRESCO_CHECK(listener_ == nullptr);
+    {
+      const std::lock_guard lock(ReceivingSockets());
+      listener_ = std::make_unique<MulticastListener>(*multicast_);
+    }
+    // What LCM sends and waits for when it opens its own socket.
+    const std::string channel = "LCM_SELF_TEST";
+    const std::string_view content = "lcm self test";
+    if (!listener_->Hears(channel, [&] { Publish(channel, std::as_bytes(std::span(content))); })) {
+      RefuseToSubscribe("all channels");
+    }
+  }
+
+  [[noreturn]] void RefuseToSubscribe(const std::string& channels) const {
+    throw UsageError(
+        fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
+                    "may drop them (allow UDP to 224.0.0.0/4), or {}",
+                    channels, url_, Remedy(url_)));
   }
 
   void SubscribeTo(const std::string& channels, BusEventHandler handler, int queue_capacity) {
     Subscription& subscription = subscriptions_.emplace_back(Subscription{this, std::move(handler)});
     lcm_subscription_t* raw = lcm_subscribe(lcm_.get(), channels.c_str(), &LcmBus::Dispatch, &subscription);
     if (raw == nullptr) {
-      throw UsageError(
-          fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
-                      "may drop them (allow UDP to 224.0.0.0/4), or {}",
-                      channels, url_, Remedy(url_)));
+      RefuseToSubscribe(channels);
     }
     lcm_subscription_set_queue_capacity(raw, queue_capacity);
-  }
-
-  /// LCM 1.3.1 says that a datagram which ends before its channel's name does has -1 bytes of content, or
-  /// fewer.
-  static std::span<const std::byte> Content(const lcm_recv_buf_t& buffer) {
-    const bool whole = buffer.data_size <= static_cast<uint32_t>(std::numeric_limits<int32_t>::max());
-    return {static_cast<const std::byte*>(buffer.data), whole ? buffer.data_size : 0};
   }
 
   static void Dispatch(const lcm_recv_buf_t* buffer, const char* channel, void* user) {
     auto* subscription = static_cast<Subscription*>(user);
     try {
-      subscription->handler({subscription->received++, buffer->recv_utime, channel, Content(*buffer)});
+      subscription->handler({subscription->received++,
+                             buffer->recv_utime,
+                             channel,
+                             {static_cast<const std::byte*>(buffer->data), buffer->data_size}});
     } catch (...) {
       subscription->bus->exception_ = std::current_exception();
     }
   }
 
-  bool WaitReadable(int64_t timeout_us) const {
-    constexpr int64_t kMicrosecondsPerSecond = 1'000'000;
-    pollfd descriptor{lcm_get_fileno(lcm_.get()), POLLIN, 0};
-    if (descriptor.fd < 0) {
+  int HandleOne() {
+    if (lcm_handle(lcm_.get()) != 0) {
       throw Failure("the connection of " + url_ + " was lost");
     }
-    const int64_t wait_us = timeout_us > 0 ? timeout_us : 0;
+    if (exception_) {
+      std::rethrow_exception(std::exchange(exception_, nullptr));
+    }
+    return 1;
+  }
+
+  /// What LCM has to be waited for with; -1: it does not receive (asking it would make it).
+  int LcmDescriptor() const {
+    if (multicast_ && !filter_) {
+      return -1;
+    }
+    const int descriptor = lcm_get_fileno(lcm_.get());
+    if (descriptor < 0) {
+      throw Failure("the connection of " + url_ + " was lost");
+    }
+    return descriptor;
+  }
+
+  Readable WaitReadable(int64_t timeout_us) const {
+    constexpr int64_t kMicrosecondsPerSecond = 1'000'000;
+    const bool waiting = listener_ && listener_->has_waiting();
+    std::array<pollfd, 2> descriptors = {
+        {{LcmDescriptor(), POLLIN, 0}, {listener_ ? listener_->descriptor() : -1, POLLIN, 0}}};
+    const int64_t wait_us = waiting ? 0 : std::max<int64_t>(timeout_us, 0);
     const timespec timeout{wait_us / kMicrosecondsPerSecond, wait_us % kMicrosecondsPerSecond * 1000};
-    return ppoll(&descriptor, 1, &timeout, nullptr) > 0;
+    const bool any = ppoll(descriptors.data(), descriptors.size(), &timeout, nullptr) > 0;
+    return {any && descriptors[0].revents != 0, waiting || (any && descriptors[1].revents != 0)};
   }
 
   std::string url_;
+  std::optional<MulticastEndpoint> multicast_;  // with udpm
   std::mutex publish_mutex_;
   std::deque<Subscription> subscriptions_;  // stable addresses: LCM holds them
   std::exception_ptr exception_;
   Lcm lcm_;
-  std::optional<ReceiveFilter> filter_;  // with udpm
+  std::optional<ReceiveFilter> filter_;  // with udpm, once LCM receives
+  BusEventHandler hear_all_;             // of what the listener hears
+  std::unique_ptr<MulticastListener> listener_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "core/error.h"
 
@@ -108,12 +109,18 @@ std::string NormalizeLcmUrl(const std::string& url) {
   return scheme == "tcpq" ? "tcpq://" + CheckAddress(url, address, false) : url;
 }
 
-std::optional<uint16_t> MulticastPort(const std::string& url) {
-  if (!url.starts_with("udpm://")) {
+std::optional<MulticastEndpoint> MulticastEndpointOf(const std::string& url) {
+  constexpr std::string_view kScheme = "udpm://";
+  if (!url.starts_with(kScheme)) {
     return std::nullopt;
   }
-  const std::string address = url.substr(0, url.find('?'));
-  return static_cast<uint16_t>(ToInteger(address.substr(address.rfind(':') + 1)).value());
+  const size_t question = url.find('?');
+  const std::string address = url.substr(kScheme.size(), question - kScheme.size());
+  const size_t colon = address.rfind(':');
+  const auto options = ParseOptions(url, url.substr(question + 1));
+  return MulticastEndpoint{address.substr(0, colon),
+                           static_cast<uint16_t>(ToInteger(address.substr(colon + 1)).value()),
+                           static_cast<int>(ToInteger(options.at("recv_buf_size")).value())};
 }
 
 }  // namespace fresco

@@ -12,7 +12,13 @@ namespace fresco {
 /// memq:// URL, or has an option that LCM would silently ignore.
 std::string NormalizeLcmUrl(const std::string& url);
 
-/// The UDP port of a normalized URL; none: it is not udpm.
-std::optional<uint16_t> MulticastPort(const std::string& url);
+struct MulticastEndpoint {
+  std::string group;  ///< IPv4 address
+  uint16_t port = 0;
+  int receive_buffer_bytes = 0;
+};
+
+/// Where a normalized URL receives; none: it is not udpm.
+std::optional<MulticastEndpoint> MulticastEndpointOf(const std::string& url);
 
 }  // namespace fresco

@@ -66,15 +66,15 @@ class LossyBus : public Bus {
     inner_->Subscribe(channel, std::move(handler), queue_capacity);
   }
 
-  void SubscribeToAll(BusEventHandler handler, int queue_capacity) override {
-    inner_->SubscribeToAll(std::move(handler), queue_capacity);
-  }
+  void SubscribeToAll(BusEventHandler handler) override { inner_->SubscribeToAll(std::move(handler)); }
 
   int Poll(int64_t timeout_us, int maximum_messages) override {
     return inner_->Poll(timeout_us, maximum_messages);
   }
 
   int64_t refused_messages() const override { return inner_->refused_messages(); }
+
+  UnheardTraffic unheard() const override { return inner_->unheard(); }
 
  private:
   static constexpr uint32_t kLongestDelay = 16;

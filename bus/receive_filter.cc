@@ -5,6 +5,7 @@
 #include <linux/filter.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -13,15 +14,15 @@
 #include <span>
 #include <system_error>
 
+#include "bus/lcm_datagram.h"
 #include "core/big_endian.h"
 #include "core/error.h"
 
 namespace fresco {
 namespace {
 
-constexpr uint32_t kWholeMessage = 0x4C433032;  // "LC02"
-constexpr uint32_t kUdpHeaderBytes = 8;         // a UDP socket's filter sees it, too
-constexpr uint32_t kChannelAt = kUdpHeaderBytes + 8;
+constexpr uint32_t kUdpHeaderBytes = 8;  // a UDP socket's filter sees it, too
+constexpr uint32_t kChannelAt = kUdpHeaderBytes + kWholeMessageHeaderBytes;
 constexpr uint32_t kAllBytes = 0xFFFFFFFF;
 
 std::vector<int> OpenDescriptors() {
@@ -52,6 +53,16 @@ std::optional<uint16_t> BoundPort(int descriptor) {
     return std::nullopt;
   }
   return ntohs(address.sin_port);
+}
+
+std::vector<int> SocketsOnPort(uint16_t port) {
+  std::vector<int> sockets;
+  for (const int descriptor : OpenDescriptors()) {
+    if (BoundPort(descriptor) == port) {
+      sockets.push_back(descriptor);
+    }
+  }
+  return sockets;
 }
 
 using Instructions = std::vector<sock_filter>;
@@ -100,14 +111,22 @@ void AddChannel(const std::string& channel, Instructions& program) {
 
 }  // namespace
 
-std::vector<int> ReceivingSockets(uint16_t port) {
-  std::vector<int> sockets;
-  for (const int descriptor : OpenDescriptors()) {
-    if (BoundPort(descriptor) == port) {
-      sockets.push_back(descriptor);
-    }
-  }
+std::mutex& ReceivingSockets() {
+  static std::mutex sockets;
   return sockets;
+}
+
+int SocketOpenedBy(const std::function<void()>& open, uint16_t port) {
+  const std::vector<int> before = SocketsOnPort(port);
+  open();
+  std::vector<int> opened = SocketsOnPort(port);
+  std::erase_if(opened,
+                [&](int socket) { return std::find(before.begin(), before.end(), socket) != before.end(); });
+  if (opened.size() != 1) {
+    throw Failure(
+        fmt::format("expected one new socket on UDP port {}, LCM's own, found {}", port, opened.size()));
+  }
+  return opened.front();
 }
 
 ReceiveFilter::ReceiveFilter(int socket) : socket_(socket) {
@@ -119,26 +138,15 @@ void ReceiveFilter::Pass(const std::string& channel) {
   Attach();
 }
 
-void ReceiveFilter::PassAll() {
-  passes_all_ = true;
-  Attach();
-}
-
 void ReceiveFilter::Attach() const {
   const sock_filter drop = BPF_STMT(BPF_RET | BPF_K, 0);
-  Instructions instructions;
-  if (passes_all_) {
-    instructions.push_back(BPF_STMT(BPF_RET | BPF_K, kAllBytes));
-  } else {
-    instructions.push_back(
-        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeaderBytes));  // shorter ones end here, dropped
-    instructions.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kWholeMessage, 1, 0));
-    instructions.push_back(drop);
-    for (const std::string& channel : channels_) {
-      AddChannel(channel, instructions);
-    }
-    instructions.push_back(drop);
+  Instructions instructions = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeaderBytes),  // shorter ones end here, dropped
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kWholeMessageMagic, 1, 0), drop};
+  for (const std::string& channel : channels_) {
+    AddChannel(channel, instructions);
   }
+  instructions.push_back(drop);
   const sock_fprog program = {static_cast<uint16_t>(instructions.size()), instructions.data()};
   if (setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof(program)) != 0) {
     throw Failure(fmt::format(

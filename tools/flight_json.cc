@@ -3,10 +3,14 @@
 #include <nlohmann/json.hpp>
 
 namespace fresco {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+}  // namespace
 
 std::string FlightJson(const World& world, const Flight& flight, const std::string& policy,
                        const std::optional<Plan>& plan) {
-  using OrderedJson = nlohmann::ordered_json;
   const AoiFigures figures = Figures(world, flight);
   OrderedJson json = {{"policy", policy},
                       {"arrived", flight.arrived()},

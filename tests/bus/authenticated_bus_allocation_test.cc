@@ -20,7 +20,7 @@ class DirectBus : public Bus {
     return true;
   }
   void Subscribe(const std::string&, BusHandler handler, int) override { handler_ = std::move(handler); }
-  void SubscribeToAll(BusEventHandler, int) override {}
+  void SubscribeToAll(BusEventHandler) override {}
   int Poll(int64_t, int) override { return 0; }
 
  private:

@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@
 #include "bus/bus.h"
 #include "core/clock.h"
 #include "core/error.h"
-#include "tests/bus/event_log_files.h"
+#include "tests/bus/lcm_datagrams.h"
 #include "tests/bus/text_messages.h"
 
 namespace fresco {
@@ -23,28 +24,14 @@ namespace {
 constexpr uint16_t kPort = 17405;
 constexpr char kUrl[] = "udpm://239.255.76.67:17405";
 
-std::string WholeMessage(const std::string& rest) {
-  return "LC02" + BigEndian(0, 4) + rest;
-}
-
-std::string Fragment(uint32_t message_bytes, uint32_t offset, uint32_t number, uint32_t count,
-                     const std::string& rest) {
-  return "LC03" + BigEndian(7, 4) + BigEndian(message_bytes, 4) + BigEndian(offset, 4) +
-         BigEndian(number, 2) + BigEndian(count, 2) + rest;
-}
-
-std::string FragmentBegin() {
-  return std::string("A\0part", 6);
-}
-
 /// LCM's buffer holds zeros, of the first, which is none of LCM's, where the second one's channel should end.
 std::vector<std::string> ChannelWithoutEnd() {
-  return {std::string(64, '\0'), WholeMessage("A")};
+  return {std::string(64, '\0'), WholeDatagram("A")};
 }
 
 /// A message as LCM sends it where it needs two datagrams.
 std::vector<std::string> TwoFragments() {
-  return {Fragment(8, 0, 0, 2, FragmentBegin()), Fragment(8, 4, 1, 2, "two!")};
+  return {FragmentDatagram({7, 8, 0, 0, 2}, OnA("part")), FragmentDatagram({7, 8, 4, 1, 2}, "two!")};
 }
 
 class HostileDatagrams : public ::testing::Test {
@@ -70,7 +57,7 @@ class HostileDatagrams : public ::testing::Test {
     for (const std::string& datagram : datagrams) {
       Send(datagram);
     }
-    Send(WholeMessage(std::string("END\0now", 7)));
+    Send(WholeDatagram(std::string("END\0now", 7)));
     const int64_t deadline_us = MonotonicMicroseconds() + 20'000'000;
     while (!ended_ && MonotonicMicroseconds() < deadline_us) {
       bus.Poll(10'000);
@@ -102,64 +89,116 @@ class HostileDatagrams : public ::testing::Test {
       ended_ = ended_ || event.channel == "END";
     });
     SendAndPoll(*bus, datagrams);
+    unheard_ = bus->unheard();
     return heard;
   }
 
-  /// What the kernel kept from the sockets on this test's port.
-  static int64_t Dropped() {
+  /// Of the sockets on this test's port: what the kernel kept from them.
+  static std::vector<int64_t> DropsOnPort() {
     std::ifstream table("/proc/net/udp");
-    int64_t dropped = 0;
+    std::vector<int64_t> drops;
     for (std::string line; std::getline(table, line);) {
       std::istringstream fields(line);
       const std::vector<std::string> words(std::istream_iterator<std::string>(fields), {});
       if (words.size() > 2 && words[1].ends_with(fmt::format(":{:04X}", kPort))) {
-        dropped += std::stoll(words.back());
+        drops.push_back(std::stoll(words.back()));
       }
     }
-    return dropped;
+    return drops;
   }
+
+  static int64_t Dropped() {
+    const auto drops = DropsOnPort();
+    return std::accumulate(drops.begin(), drops.end(), int64_t{0});
+  }
+
+  static int SocketsOnPort() { return static_cast<int>(DropsOnPort().size()); }
 
   int socket_;
   bool ended_ = false;
   int64_t dropped_ = 0;
+  UnheardTraffic unheard_;
 };
 
 TEST_F(HostileDatagrams, OnlyWholeMessagesOfTheChannelsThatAreReadReachLcm) {
   std::vector<std::string> hostile = {
-      Fragment(100, 0xFFFFFFF0, 0, 1, std::string("A\0", 2) + std::string(0x20, 'x')),  // behind its end
-      Fragment(100, 0, 0, 1, "A"),                                                      // cut short
+      FragmentDatagram({7, 100, 0xFFFFFFF0, 0, 1}, OnA(std::string(0x20, 'x'))),  // behind its end
+      FragmentDatagram({7, 100, 0, 0, 1}, "A"),                                   // cut short
       "LC03" + BigEndian(7, 4),
-      Fragment(0xFFFFFFFF, 0, 0, 2, FragmentBegin()),
-      Fragment(1 << 28, 0, 0, 2, FragmentBegin()),
+      FragmentDatagram({7, 0xFFFFFFFF, 0, 0, 2}, OnA("part")),
+      FragmentDatagram({7, 1 << 28, 0, 0, 2}, OnA("part")),
       "LC",
       "",
-      WholeMessage("AND"),
-      WholeMessage(std::string("AND MOR\0x", 9)),
-      WholeMessage(std::string("B\0x", 3)),
-      WholeMessage(std::string("AA\0x", 4)),
-      WholeMessage(std::string(200, 'A')),
+      WholeDatagram("AND"),
+      WholeDatagram(std::string("AND MOR\0x", 9)),
+      WholeDatagram(std::string("B\0x", 3)),
+      WholeDatagram(std::string("AA\0x", 4)),
+      WholeDatagram(std::string(200, 'A')),
   };
   for (const auto& more : {TwoFragments(), ChannelWithoutEnd()}) {
     hostile.insert(hostile.end(), more.begin(), more.end());
   }
   std::vector<std::string> sent = hostile;
-  sent.push_back(WholeMessage(std::string("A\0", 2)));
-  sent.push_back(WholeMessage(std::string("A\0whole", 7)));
+  sent.push_back(WholeDatagram(OnA("")));
+  sent.push_back(WholeDatagram(OnA("whole")));
   EXPECT_EQ(HeardOnA(sent), (std::vector<std::string>{"", "whole"}));
   EXPECT_EQ(dropped_, static_cast<int64_t>(hostile.size()));
 }
 
 TEST_F(HostileDatagrams, ADatagramOf60KilobytesIsAMessage) {
   const std::string content(60'000, 'x');
-  EXPECT_EQ(HeardOnA({WholeMessage(std::string("A\0", 2) + content)}), std::vector<std::string>{content});
+  EXPECT_EQ(HeardOnA({WholeDatagram(OnA(content))}), std::vector<std::string>{content});
 }
 
-TEST_F(HostileDatagrams, AChannelWithoutItsEndHasNoContent) {
-  EXPECT_EQ(HeardOfAllOnA(ChannelWithoutEnd()), std::vector<std::string>{""});
+TEST_F(HostileDatagrams, WhoHearsAllChannelsHearsNoMessageWhoseChannelDoesNotEnd) {
+  EXPECT_EQ(HeardOfAllOnA(ChannelWithoutEnd()), std::vector<std::string>{});
+  EXPECT_EQ(unheard_.refused_packets, 2);
 }
 
 TEST_F(HostileDatagrams, WhoHearsAllChannelsHearsMessagesOfManyDatagrams) {
   EXPECT_EQ(HeardOfAllOnA(TwoFragments()), std::vector<std::string>{"parttwo!"});
+  EXPECT_EQ(unheard_.refused_packets, 0);
+}
+
+TEST_F(HostileDatagrams, WhoHearsAllChannelsLivesThroughFragmentsOutsideOfTheirMessage) {
+  std::vector<std::string> datagrams;
+  for (const uint32_t offset : {0xFFFFFFF0u, 0x7FFFFFFFu, 1000u}) {
+    datagrams.push_back(FragmentDatagram({1, 64, offset, 0, 1}, OnA(std::string(20, 'x'))));
+    datagrams.push_back(FragmentDatagram({2, 64, offset, 1, 2}, std::string(20, 'x')));
+  }
+  const auto refused = static_cast<int64_t>(datagrams.size());
+  datagrams.insert(datagrams.end(), 3, FragmentDatagram({3, 96, 0, 0, 3}, OnA(std::string(32, 'x'))));
+  for (const std::string& more : TwoFragments()) {
+    datagrams.push_back(more);
+  }
+  EXPECT_EQ(HeardOfAllOnA(datagrams), std::vector<std::string>{"parttwo!"});
+  EXPECT_EQ(unheard_.refused_packets, refused);
+  EXPECT_EQ(unheard_.incomplete_messages, 1);
+}
+
+TEST_F(HostileDatagrams, WhoHearsAllChannelsIsNotKeptInPollByWhatIsNoMessage) {
+  const auto bus = OpenLcmBus(kUrl);
+  bus->SubscribeToAll([](const LcmEvent&) {});
+  for (int i = 0; i < 1000; ++i) {
+    Send("no message");
+  }
+  const int64_t begin_us = MonotonicMicroseconds();
+  while (bus->unheard().refused_packets < 1000 && MonotonicMicroseconds() < begin_us + 20'000'000) {
+    EXPECT_EQ(bus->Poll(0), 0);
+  }
+  EXPECT_EQ(bus->unheard().refused_packets, 1000);
+  EXPECT_EQ(bus->Poll(3'000), 0);
+}
+
+TEST_F(HostileDatagrams, NothingIsOpenOnThePortUntilSomebodySubscribes) {
+  const auto bus = OpenLcmBus(kUrl);
+  EXPECT_TRUE(bus->Publish("A", Bytes("content")));
+  EXPECT_EQ(bus->Poll(1'000), 0);
+  EXPECT_EQ(SocketsOnPort(), 0);
+  bus->SubscribeToAll([](const LcmEvent&) {});
+  EXPECT_EQ(SocketsOnPort(), 1);  // LCM's own would be a second
+  bus->Subscribe("A", [](auto) {});
+  EXPECT_EQ(SocketsOnPort(), 2);
 }
 
 TEST_F(HostileDatagrams, AFilterIsOfOneBusOnly) {
@@ -177,8 +216,8 @@ TEST_F(HostileDatagrams, EveryLengthOfAChannelsNameIsTold) {
     std::vector<std::string> heard;
     bus->Subscribe(channel, [&](auto message) { heard.push_back(Text(message)); });
     bus->Subscribe("END", [&](auto) { ended_ = true; });
-    SendAndPoll(*bus, {WholeMessage(other + '\0'), WholeMessage(longer + '\0'), WholeMessage(channel),
-                       WholeMessage(channel + '\0'), WholeMessage(channel + '\0' + "x")});
+    SendAndPoll(*bus, {WholeDatagram(other + '\0'), WholeDatagram(longer + '\0'), WholeDatagram(channel),
+                       WholeDatagram(channel + '\0'), WholeDatagram(channel + '\0' + "x")});
     EXPECT_EQ(heard, (std::vector<std::string>{"", "x"})) << length;
     EXPECT_EQ(Dropped(), 3) << length;
   }

@@ -76,6 +76,71 @@ TEST(LcmBus, CarriesMessagesFromOneObjectToAnother) {
   EXPECT_EQ(heard, "over the network");
 }
 
+TEST(LcmBus, HearsLargeMessagesOfAllChannelsWithTheirTimes) {
+  const auto sender = OpenLcmBus("udpm://239.255.76.67:17406");
+  const auto receiver = OpenLcmBus("udpm://239.255.76.67:17406");
+  std::string large(1'000'000, '\0');
+  for (size_t i = 0; i < large.size(); ++i) {
+    large[i] = static_cast<char>(i * i >> 7);
+  }
+  std::string heard;
+  int64_t heard_utime = 0;
+  int64_t events = 0;
+  receiver->SubscribeToAll([&](const LcmEvent& event) {
+    EXPECT_EQ(event.number, events++);
+    EXPECT_EQ(event.channel, "LARGE");
+    heard = Text(event.message);
+    heard_utime = event.utime;
+  });
+  const int64_t begin_utime = WallMicroseconds();
+  EXPECT_TRUE(PollUntil(*receiver, [&] {
+    sender->Publish("LARGE", Bytes(large));
+    return !heard.empty();
+  }));
+  EXPECT_TRUE(heard == large);  // too much to print
+  EXPECT_GE(heard_utime, begin_utime);
+  EXPECT_LE(heard_utime, WallMicroseconds());
+  EXPECT_EQ(receiver->unheard().refused_packets, 0);
+}
+
+TEST(LcmBus, HearsOneChannelBesideAllChannels) {
+  const auto bus = OpenLcmBus("udpm://239.255.76.67:17407");
+  std::vector<std::string> heard_all;
+  std::vector<std::string> heard_one;
+  bus->SubscribeToAll([&](const LcmEvent& event) {
+    if (event.channel != "LCM_SELF_TEST") {  // with which LCM opens its own socket
+      heard_all.push_back(Text(event.message));
+    }
+  });
+  bus->Subscribe("A", [&](auto message) { heard_one.push_back(Text(message)); });
+  const std::vector<std::pair<std::string, std::string>> sent = {{"A", "1"}, {"B", "2"}, {"A", "3"}};
+  for (const auto& [channel, message] : sent) {
+    bus->Publish(channel, Bytes(message));
+  }
+  EXPECT_TRUE(PollUntil(*bus, [&] { return heard_all.size() == 3 && heard_one.size() == 2; }));
+  EXPECT_EQ(heard_all, (std::vector<std::string>{"1", "2", "3"}));
+  EXPECT_EQ(heard_one, (std::vector<std::string>{"1", "3"}));
+}
+
+TEST(LcmBus, GoesOnBehindAMessageOfAllChannelsWhoseHandlerThrew) {
+  const auto bus = OpenLcmBus("udpm://239.255.76.67:17408");
+  std::vector<std::string> heard;
+  bus->SubscribeToAll([&](const LcmEvent& event) {
+    heard.push_back(Text(event.message));
+    if (heard.size() == 1) {
+      throw Failure("from the handler");
+    }
+  });
+  for (const std::string message : {"1", "2", "3"}) {
+    bus->Publish("A", Bytes(message));
+  }
+  EXPECT_THROW(PollUntil(*bus, [&] { return heard.size() > 1; }), Error);
+  EXPECT_EQ(bus->Poll(1'000'000, 1), 1);
+  EXPECT_EQ(heard, (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(bus->Poll(1'000'000, 5), 1);
+  EXPECT_EQ(heard.back(), "3");
+}
+
 TEST(LcmBus, TakesMessagesFromSeveralThreads) {
   const auto bus = OpenLcmBus("udpm://239.255.76.67:17403");
   int heard = 0;

@@ -25,10 +25,14 @@ TEST(LcmUrl, GetsTheDefaultsThatItDoesNotName) {
   EXPECT_NO_THROW(NormalizeLcmUrl(kDefaultLcmUrl));
 }
 
-TEST(LcmUrl, HasAPortWhereItIsMulticast) {
-  EXPECT_EQ(MulticastPort(NormalizeLcmUrl("udpm://239.255.76.67:17667")), 17667);
-  EXPECT_EQ(MulticastPort(NormalizeLcmUrl("tcpq://localhost:7700")), std::nullopt);
-  EXPECT_EQ(MulticastPort("memq://"), std::nullopt);
+TEST(LcmUrl, HasAnEndpointIfItIsMulticast) {
+  const auto endpoint = MulticastEndpointOf(NormalizeLcmUrl("udpm://239.255.76.67:17667?recv_buf_size=1000"));
+  ASSERT_TRUE(endpoint);
+  EXPECT_EQ(endpoint->group, "239.255.76.67");
+  EXPECT_EQ(endpoint->port, 17667);
+  EXPECT_EQ(endpoint->receive_buffer_bytes, 1000);
+  EXPECT_FALSE(MulticastEndpointOf(NormalizeLcmUrl("tcpq://localhost:7700")));
+  EXPECT_FALSE(MulticastEndpointOf("memq://"));
 }
 
 TEST(LcmUrl, IsRefusedWithItsOffendingPartAndAnExample) {

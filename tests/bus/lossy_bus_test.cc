@@ -21,7 +21,7 @@ class NotingBus : public Bus {
     return true;
   }
   void Subscribe(const std::string&, BusHandler, int) override {}
-  void SubscribeToAll(BusEventHandler, int) override {}
+  void SubscribeToAll(BusEventHandler) override {}
   int Poll(int64_t, int) override { return 0; }
 
   std::vector<std::string> messages;

@@ -201,6 +201,33 @@ void WriteLogs(const std::filesystem::path& directory) {
   std::filesystem::remove(path);
 }
 
+std::string BigEndian(uint64_t value, int bytes) {
+  std::string text;
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {
+    text += static_cast<char>(value >> shift);
+  }
+  return text;
+}
+
+/// A datagram of sender 1, as message_assembler_fuzz.cc reads it.
+std::string Sent(const std::string& datagram) {
+  return BigEndian(1, 1) + BigEndian(datagram.size(), 2) + datagram;
+}
+
+/// Whole messages, and one of three fragments in some orders.
+void WriteDatagrams(const std::filesystem::path& directory) {
+  Corpus corpus(directory, "message_assembler_fuzz");
+  const std::string name("A\0", 2);
+  const auto fragment = [&](uint64_t number) {
+    const std::string data = (number == 0 ? name : "") + std::string(10, static_cast<char>('a' + number));
+    return Sent("LC03" + BigEndian(7, 4) + BigEndian(30, 4) + BigEndian(10 * number, 4) +
+                BigEndian(number, 2) + BigEndian(3, 2) + data);
+  };
+  corpus.Add(Sent("LC02" + BigEndian(7, 4) + name + "content") + Sent("LC02" + BigEndian(8, 4) + name));
+  corpus.Add(fragment(0) + fragment(1) + fragment(2));
+  corpus.Add(fragment(2) + fragment(0) + fragment(0) + fragment(1));
+}
+
 }  // namespace
 }  // namespace fresco
 
@@ -217,6 +244,7 @@ int main(int argc, char** argv) {
     fresco::WriteFiles(directory);
     fresco::WriteDictionaries(directory);
     fresco::WriteLogs(directory);
+    fresco::WriteDatagrams(directory);
     return 0;
   } catch (const fresco::Error& error) {
     std::fprintf(stderr, "write_corpus: %s\n", error.what());

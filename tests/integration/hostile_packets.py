@@ -85,6 +85,38 @@ class Recorder(threading.Thread):
         return self.datagrams
 
 
+def fragment(sequence, message_bytes, offset, number, count, rest):
+    """A part of a message: the one of number 0 has the channel, with its zero, in front of its data."""
+    return struct.pack(">IIIIHH", FRAGMENT, sequence, message_bytes, offset, number, count) + rest
+
+
+def hostile_fragments():
+    """(kind, datagram) pairs: fragments that lie about their place, their message or each other. All are of the channel
+    ATTACK, on which nobody must hear anything, however often and in whichever order one sender sends them."""
+    begin = b"ATTACK\0"
+    messages = {
+        "behind the end": [[(64, offset, number, count, begin * (number == 0) + bytes(20))] for offset in
+                           (0xFFFFFFF0, 0x7FFFFFFF, 1000) for number, count in ((0, 1), (0, 2), (1, 2))],
+        "too large": [[(size, 0, 0, 2, begin + bytes(1000))] for size in (1 << 28, (1 << 28) + 1, 1 << 31, 0xFFFFFFFF)],
+        "impossible number": [[(64, 0, 0, 0, begin + bytes(64))], [(64, 0, 2, 2, bytes(64))], [(64, 0, 65535, 1, bytes(64))]],
+        "duplicated": [[(96, 0, 0, 3, begin + bytes(32))] * 3, [(64, 0, 0, 2, begin + bytes(32))] * 2],
+        "overlapping": [[(100, 0, 0, 2, begin + bytes(60)), (100, 40, 1, 2, bytes(60))],
+                        [(100, 40, 1, 2, bytes(60)), (100, 0, 0, 2, begin + bytes(60))]],
+        "with a hole": [[(100, 0, 0, 2, begin + bytes(40)), (100, 60, 1, 2, bytes(40))], [(64, 0, 0, 1, begin)]],
+        "contradictory": [[(100, 0, 0, 2, begin + bytes(50)), (200, 50, 1, 2, bytes(150))],
+                          [(100, 0, 0, 2, begin + bytes(50)), (100, 50, 1, 3, bytes(50))],
+                          [(100, 0, 0, 3, begin + bytes(50)), (100, 0, 0, 3, begin + b"x" * 50)]],
+        "without a channel": [[(64, 0, 0, 1, b"ATTACK")], [(64, 0, 0, 1, b"")], [(64, 0, 0, 1, b"ATTACK" * 11 + bytes(65))]],
+    }
+    sequence = itertools.count()
+    pairs = []
+    for kind, fragments_of in messages.items():
+        for fragments in fragments_of:
+            number = next(sequence)
+            pairs += [(kind, fragment(number, *fields)) for fields in fragments]
+    return pairs + [("cut short", fragment(next(sequence), 64, 0, 0, 1, b"")[:size]) for size in range(4, 20)]
+
+
 def hostile_packets(recorded, run_id, seed=1):
     """(kind, datagram) pairs from the packets of an earlier run, against the run `run_id`: every kind in turn."""
     draw = random.Random(seed)
@@ -108,9 +140,9 @@ def hostile_packets(recorded, run_id, seed=1):
         channel, content = real()
         return packet(channel, content[:draw.randrange(len(content))])
 
-    def fragment(offset):
-        header = struct.pack(">IIIIHH", FRAGMENT, draw.randrange(9), 1_000_000, offset, 0, 900)
-        return header + b"FRESCO_" + draw.choice(CHANNELS).encode() + b"\0" + draw.randbytes(1200)
+    def first_fragment(offset):
+        channel = b"FRESCO_" + draw.choice(CHANNELS).encode() + b"\0"
+        return fragment(draw.randrange(9), 1_000_000, offset, 0, 900, channel + draw.randbytes(1200))
 
     absurd = (500_000_000, -1, 2**31 - 1, -2**31)
     kinds = {
@@ -123,8 +155,8 @@ def hostile_packets(recorded, run_id, seed=1):
         "other channel": lambda: packet(draw.choice(("OTHER", "FRESCO_", "FRESCO_RUNS", "F" * 90)), draw.randbytes(99)),
         "a channel of zeros": lambda: packet("", bytes(80)),  # what LCM reads behind the end of the next one
         "a channel without its end": lambda: packet("FRESCO_" + draw.choice(CHANNELS), b"")[:-1],
-        "fragment": lambda: fragment(0),
-        "fragment behind its message's end": lambda: fragment(0xFFFFFFF0),
+        "fragment": lambda: first_fragment(0),
+        "fragment behind its message's end": lambda: first_fragment(0xFFFFFFF0),
         "other run": lambda: changed(),
         "many other runs": lambda: changed(run=draw.randrange(1, 2**62)),
         "other configuration": lambda: changed(run=run_id, config=draw.randrange(1, 2**32)),

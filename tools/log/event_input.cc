@@ -1,7 +1,6 @@
 #include "tools/log/event_input.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "core/clock.h"
 #include "core/error.h"
@@ -28,16 +27,6 @@ void AddEventInput(CLI::App& app, EventInputOptions& options) {
                  "No Fresco message of another run than this (run_id of summary.json)");
 }
 
-void WarnOfDamage(const MergedEventLogs::Totals& totals) {
-  if (totals.damaged_bytes > 0) {
-    spdlog::warn("damaged: {} bytes were skipped that are no event", totals.damaged_bytes);
-  }
-  if (totals.torn_bytes > 0) {
-    spdlog::warn("cut short: the last {} bytes are of an event that is not whole; all before was read",
-                 totals.torn_bytes);
-  }
-}
-
 MergedEventLogs::Totals ForEachEvent(const EventInputOptions& options,
                                      const std::function<void(const LcmEvent& event)>& handle) {
   constexpr int64_t kEventsPerLook = 4096;
@@ -60,7 +49,7 @@ MergedEventLogs::Totals ForEachEvent(const EventInputOptions& options,
   if (StopSignal::Requested() && !IsLcmUrl(options.sources.front())) {
     throw Failure("interrupted before the end of the logs");
   }
-  WarnOfDamage(source->totals());
+  source->WarnOfLosses();
   return source->totals();
 }
 

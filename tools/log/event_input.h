@@ -22,12 +22,9 @@ struct EventInputOptions {
 void AddEventInput(CLI::App& app, EventInputOptions& options);
 
 /// Calls `handle` for every event that is wanted, in order, and shows on standard error how far it is; says
-/// there at the end where a log was damaged or cut. Throws UsageError where a source can't be opened, Failure
+/// there at the end what was damaged, cut or lost. Throws UsageError where a source can't be opened, Failure
 /// where the program is interrupted while it reads logs.
 MergedEventLogs::Totals ForEachEvent(const EventInputOptions& options,
                                      const std::function<void(const LcmEvent& event)>& handle);
-
-/// Says on standard error what of the logs is no event.
-void WarnOfDamage(const MergedEventLogs::Totals& totals);
 
 }  // namespace fresco

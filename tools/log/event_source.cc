@@ -1,5 +1,7 @@
 #include "tools/log/event_source.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <deque>
 #include <limits>
@@ -9,6 +11,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/stop_signal.h"
+#include "tools/log/bus_losses.h"
 
 namespace fresco {
 namespace {
@@ -20,6 +23,17 @@ class LogSource : public EventSource {
   std::optional<LcmEvent> Next() override { return StopSignal::Requested() ? std::nullopt : logs_.Next(); }
   MergedEventLogs::Totals totals() const override { return logs_.totals(); }
 
+  void WarnOfLosses() const override {
+    const MergedEventLogs::Totals totals = logs_.totals();
+    if (totals.damaged_bytes > 0) {
+      spdlog::warn("damaged: {} bytes were skipped that are no event", totals.damaged_bytes);
+    }
+    if (totals.torn_bytes > 0) {
+      spdlog::warn("cut short: the last {} bytes are of an event that is not whole; all before was read",
+                   totals.torn_bytes);
+    }
+  }
+
  private:
   MergedEventLogs logs_;
 };
@@ -27,11 +41,10 @@ class LogSource : public EventSource {
 class BusSource : public EventSource {
  public:
   BusSource(const std::string& url, double seconds) : bus_(OpenLcmBus(url)) {
-    constexpr int kQueueCapacity = 1 << 16;
     if (seconds > 0) {
       end_us_ = MonotonicMicroseconds() + static_cast<int64_t>(1e6 * seconds);
     }
-    bus_->SubscribeToAll([this](const LcmEvent& event) { Take(event); }, kQueueCapacity);
+    bus_->SubscribeToAll([this](const LcmEvent& event) { Take(event); });
   }
 
   std::optional<LcmEvent> Next() override {
@@ -48,6 +61,7 @@ class BusSource : public EventSource {
   }
 
   MergedEventLogs::Totals totals() const override { return {bytes_, 0, 0}; }
+  void WarnOfLosses() const override { WarnOfBusLosses(*bus_); }
 
  private:
   /// Keeps it beyond the call.

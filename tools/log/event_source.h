@@ -21,6 +21,9 @@ class EventSource {
 
   /// What was read so far; of a bus, the bytes only.
   virtual MergedEventLogs::Totals totals() const = 0;
+
+  /// Says on standard error what could not be handed out: damage of a log, losses of a bus.
+  virtual void WarnOfLosses() const = 0;
 };
 
 /// `sources`: paths of event logs, or one LCM URL alone, which is listened to for `seconds` (0: until the

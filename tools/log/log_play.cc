@@ -35,7 +35,7 @@ void PlayOnce(const PlayOptions& options, LogPlayer& player) {
                             1e-6 * static_cast<double>(event->utime - *first_utime)));
     }
   }
-  WarnOfDamage(source->totals());
+  source->WarnOfLosses();
 }
 
 int Play(const PlayOptions& options) {

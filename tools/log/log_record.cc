@@ -8,9 +8,9 @@
 #include "core/clock.h"
 #include "core/stop_signal.h"
 #include "tools/live_line.h"
+#include "tools/log/bus_losses.h"
 #include "tools/log/log_commands.h"
 #include "tools/log/recorder.h"
-#include "tools/log/socket_drops.h"
 
 namespace fresco {
 namespace {
@@ -31,10 +31,9 @@ std::string Text(const Recorder::Totals& totals) {
   return fmt::format("{} events, {:.1f} MB", totals.events, 1e-6 * static_cast<double>(totals.bytes));
 }
 
-std::string LossText(const Recorder::Totals& totals) {
-  const int64_t lost = DroppedDatagrams();
+std::string LossText(const Recorder::Totals& totals, const Bus& bus) {
   return (totals.dropped_events > 0 ? fmt::format(", {} DROPPED", totals.dropped_events) : "") +
-         (lost > 0 ? fmt::format(", {} packets LOST", lost) : "");
+         BusLossText(bus);
 }
 
 /// Says it once, as soon as the disk is found too slow.
@@ -64,15 +63,9 @@ int Record(const RecordOptions& options) {
   const Recorder::Totals totals = recorder.Finish();
   line.Finish();
   WarnOfDrops(totals, warned);
-  if (DroppedDatagrams() > 0) {
-    spdlog::warn(
-        "{} packets were lost before this program saw them: its receive buffer was full (recv_buf_size in "
-        "the "
-        "URL is granted up to the sysctl net.core.rmem_max)",
-        DroppedDatagrams());
-  }
+  WarnOfBusLosses(*bus);
   const std::string files = totals.files > 1 ? fmt::format(" in {} files", totals.files) : "";
-  fmt::print("recorded: {}, {}{}{}\n", options.out, Text(totals), LossText(totals), files);
+  fmt::print("recorded: {}, {}{}{}\n", options.out, Text(totals), LossText(totals, *bus), files);
   return 0;
 }
 

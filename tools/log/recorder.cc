@@ -9,8 +9,6 @@
 namespace fresco {
 namespace {
 
-// LCM's own queue, in front of the recorder's memory: Step empties it as fast as memory can be copied.
-constexpr int kQueueCapacity = 1 << 16;
 constexpr auto kPause = std::chrono::milliseconds(50);
 constexpr size_t kHurryBytes = 4 << 20;
 constexpr int64_t kFlushPeriodUs = 500'000;
@@ -19,7 +17,7 @@ constexpr int64_t kFlushPeriodUs = 500'000;
 
 Recorder::Recorder(Bus& bus, RecorderOptions options)
     : bus_(bus), options_(std::move(options)), writer_(options_.path, options_.split_bytes) {
-  bus_.SubscribeToAll([this](const LcmEvent& event) { Take(event); }, kQueueCapacity);
+  bus_.SubscribeToAll([this](const LcmEvent& event) { Take(event); });
   thread_ = std::thread([this] { WriteBatches(); });
 }
 
@@ -33,7 +31,7 @@ void Recorder::Step(int64_t timeout_us) {
 }
 
 Recorder::Totals Recorder::Finish() {
-  // What was sent before is on its way through the socket and LCM's thread; others may go on sending.
+  // What was sent before is on its way through the socket; others may go on sending.
   constexpr int64_t kQuietUs = 100'000;
   constexpr int64_t kPatienceUs = 1'000'000;
   const int64_t deadline_us = MonotonicMicroseconds() + kPatienceUs;

@@ -10,8 +10,9 @@
 namespace fresco {
 namespace {
 
+using OrderedJson = nlohmann::ordered_json;
+
 std::string JsonLine(const NamedRow& row) {
-  using OrderedJson = nlohmann::ordered_json;
   OrderedJson json = OrderedJson::object();
   for (const auto& [name, cell] : row) {
     json[name] = std::visit([](const auto& value) { return OrderedJson(value); }, cell);

@@ -12,7 +12,7 @@
 namespace fresco {
 namespace {
 
-constexpr int kWidthPx = 800;
+constexpr int kPlotWidthPx = 800;
 constexpr int kPlotHeightPx = 470;  // without the legend
 constexpr int kGapAxisPx = 92;
 
@@ -136,7 +136,7 @@ Legend MakeLegend(const LinePlot& plot) {
     entries.push_back({reference.name, ColourOption(reference.role, 0),
                        LineOptions(reference.role, CurveShape::kLine), ""});
   }
-  return Legend(std::move(entries), kWidthPx);
+  return Legend(std::move(entries), kPlotWidthPx);
 }
 
 std::string AxesScript(const LinePlot& plot, Range x, Range y) {
@@ -184,7 +184,7 @@ Picture DrawLinePlot(const LinePlot& plot) {
   const Range x = XRange(plot);
   const Range y = YRange(plot);
   const Legend legend = MakeLegend(plot);
-  Picture picture{kWidthPx, kPlotHeightPx + legend.height_px(), ""};
+  Picture picture{kPlotWidthPx, kPlotHeightPx + legend.height_px(), ""};
   Frame frame{.title = plot.title, .x_label = plot.x_label, .y_label = plot.y_label};
   if (plot.gap_base) {
     frame.right_px = kGapAxisPx;

@@ -1,0 +1,203 @@
+#include "bus/message_assembler.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "bus/lcm_datagram.h"
+#include "core/big_endian.h"
+
+namespace fresco {
+namespace {
+
+/// The name with which the bytes begin; none: its zero is missing or its length is not allowed.
+std::optional<std::string_view> ChannelOf(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              std::min(bytes.size(), kMaximumLcmChannelBytes + 1));
+  const size_t length = text.find('\0');
+  if (length == 0 || length == std::string_view::npos) {
+    return std::nullopt;
+  }
+  return text.substr(0, length);
+}
+
+}  // namespace
+
+std::optional<AssembledMessage> MessageAssembler::Take(std::span<const std::byte> datagram, uint64_t sender,
+                                                       int64_t utime) {
+  GiveUpTheSilent(utime);
+  if (datagram.size() < kWholeMessageHeaderBytes) {
+    return Refuse();
+  }
+  const auto magic = ReadBigEndian<uint32_t>(datagram.data());
+  if (magic == kWholeMessageMagic) {
+    return TakeWhole(datagram);
+  }
+  const auto fragment = magic == kFragmentMagic ? ParseFragment(datagram) : std::nullopt;
+  return fragment ? TakeFragment(*fragment, sender, utime) : Refuse();
+}
+
+std::optional<AssembledMessage> MessageAssembler::Refuse() {
+  ++refused_datagrams_;
+  return std::nullopt;
+}
+
+std::optional<AssembledMessage> MessageAssembler::TakeWhole(std::span<const std::byte> datagram) {
+  const auto rest = datagram.subspan(kWholeMessageHeaderBytes);
+  const auto channel = ChannelOf(rest);
+  if (!channel) {
+    return Refuse();
+  }
+  const auto content = rest.subspan(channel->size() + 1);
+  return AssembledMessage{std::string(*channel), {content.begin(), content.end()}};
+}
+
+/// None: a number in it is wrong by itself.
+std::optional<MessageAssembler::Fragment> MessageAssembler::ParseFragment(
+    std::span<const std::byte> datagram) {
+  if (datagram.size() < kFragmentHeaderBytes) {
+    return std::nullopt;
+  }
+  const std::byte* header = datagram.data();
+  Fragment fragment{.sequence = ReadBigEndian<uint32_t>(header + 4),
+                    .message_bytes = ReadBigEndian<uint32_t>(header + 8),
+                    .offset = ReadBigEndian<uint32_t>(header + 12),
+                    .number = ReadBigEndian<uint16_t>(header + 16),
+                    .count = ReadBigEndian<uint16_t>(header + 18),
+                    .data = datagram.subspan(kFragmentHeaderBytes)};
+  if (fragment.number == 0) {
+    const auto channel = ChannelOf(fragment.data);
+    if (!channel) {
+      return std::nullopt;
+    }
+    fragment.channel = *channel;
+    fragment.data = fragment.data.subspan(channel->size() + 1);
+  }
+  const bool fits = fragment.number < fragment.count && fragment.message_bytes <= kMaximumLcmMessageBytes &&
+                    fragment.offset <= fragment.message_bytes &&
+                    fragment.data.size() <= fragment.message_bytes - fragment.offset;
+  return fits ? std::optional(fragment) : std::nullopt;
+}
+
+std::optional<AssembledMessage> MessageAssembler::TakeFragment(const Fragment& fragment, uint64_t sender,
+                                                               int64_t utime) {
+  const auto message = FindOrBegin(fragment, sender);
+  if (!Agrees(*message, fragment)) {
+    return Refuse();
+  }
+  message->touched_utime = utime;
+  messages_.splice(messages_.end(), messages_, message);
+  Add(fragment, *message);
+  if (message->places.size() == message->count) {
+    return Finish(message);
+  }
+  while (memory_bytes_ > memory_limit_bytes_ && messages_.size() > 1) {
+    Remove(messages_.begin());
+    ++given_up_;
+  }
+  return std::nullopt;
+}
+
+MessageAssembler::Messages::iterator MessageAssembler::FindOrBegin(const Fragment& fragment,
+                                                                   uint64_t sender) {
+  const Key key{sender, fragment.sequence};
+  const auto [entry, is_new] = by_key_.try_emplace(key);
+  if (is_new) {
+    entry->second = messages_.insert(messages_.end(), {key, fragment.message_bytes, fragment.count});
+    memory_bytes_ += MemoryBytes(*entry->second);
+  }
+  return entry->second;
+}
+
+/// Whether the fragment can be of this message, after those that have arrived.
+bool MessageAssembler::Agrees(const Incomplete& message, const Fragment& fragment) {
+  if (fragment.message_bytes != message.message_bytes || fragment.count != message.count) {
+    return false;
+  }
+  const auto next = message.places.lower_bound(fragment.number);
+  if (next != message.places.end() && next->first == fragment.number) {
+    return IsAtPlace(message, next->second, fragment);
+  }
+  const bool ends_before_next =
+      next == message.places.end() || fragment.offset + fragment.data.size() <= next->second.offset;
+  if (next == message.places.begin()) {
+    return ends_before_next;
+  }
+  const Place& previous = std::prev(next)->second;
+  return ends_before_next && previous.offset + previous.bytes <= fragment.offset;
+}
+
+bool MessageAssembler::IsAtPlace(const Incomplete& message, const Place& place, const Fragment& fragment) {
+  const auto arrived = std::span(message.arrived).subspan(place.arrived_at, place.bytes);
+  return place.offset == fragment.offset && (fragment.number != 0 || message.channel == fragment.channel) &&
+         std::equal(arrived.begin(), arrived.end(), fragment.data.begin(), fragment.data.end());
+}
+
+/// Adds a fragment that agrees, unless it is there already.
+void MessageAssembler::Add(const Fragment& fragment, Incomplete& message) {
+  if (message.places.contains(fragment.number)) {
+    return;
+  }
+  const Place place{fragment.offset, static_cast<uint32_t>(fragment.data.size()), message.arrived.size()};
+  const size_t wanted = message.arrived.size() + fragment.data.size();
+  memory_bytes_ -= MemoryBytes(message);
+  message.places.emplace(fragment.number, place);
+  if (fragment.number == 0) {
+    message.channel = fragment.channel;
+  }
+  if (wanted > message.arrived.capacity()) {  // no overlaps: never more than the message
+    message.arrived.reserve(std::max(wanted, std::min<size_t>(2 * wanted, message.message_bytes)));
+  }
+  message.arrived.insert(message.arrived.end(), fragment.data.begin(), fragment.data.end());
+  memory_bytes_ += MemoryBytes(message);
+}
+
+/// All fragments are there, in ascending order and without overlap: they leave no hole if they are as long as
+/// the message.
+std::optional<AssembledMessage> MessageAssembler::Finish(Messages::iterator message) {
+  Incomplete finished = Remove(message);
+  if (finished.arrived.size() != finished.message_bytes) {
+    ++given_up_;
+    return std::nullopt;
+  }
+  std::string channel = std::move(finished.channel);
+  return AssembledMessage{std::move(channel), InOrder(std::move(finished))};
+}
+
+std::vector<std::byte> MessageAssembler::InOrder(Incomplete message) {
+  if (std::all_of(message.places.begin(), message.places.end(),
+                  [](const auto& entry) { return entry.second.offset == entry.second.arrived_at; })) {
+    return std::move(message.arrived);
+  }
+  std::vector<std::byte> ordered;
+  ordered.reserve(message.arrived.size());
+  for (const auto& [number, place] : message.places) {
+    const auto data = std::span(message.arrived).subspan(place.arrived_at, place.bytes);
+    ordered.insert(ordered.end(), data.begin(), data.end());
+  }
+  return ordered;
+}
+
+MessageAssembler::Incomplete MessageAssembler::Remove(Messages::iterator message) {
+  memory_bytes_ -= MemoryBytes(*message);
+  Incomplete removed = std::move(*message);
+  by_key_.erase(removed.key);
+  messages_.erase(message);
+  return removed;
+}
+
+void MessageAssembler::GiveUpTheSilent(int64_t utime) {
+  while (!messages_.empty() && messages_.front().touched_utime + kPatienceUs < utime) {
+    Remove(messages_.begin());
+    ++given_up_;
+  }
+}
+
+/// With what the containers need for an entry, about.
+size_t MessageAssembler::MemoryBytes(const Incomplete& message) {
+  constexpr size_t kMessageBytes = sizeof(Incomplete) + 256;
+  constexpr size_t kPlaceBytes = 80;
+  return kMessageBytes + kPlaceBytes * message.places.size() + message.arrived.capacity();
+}
+
+}  // namespace fresco

@@ -1,0 +1,104 @@
+// Puts LCM's messages together from the datagrams (bus/lcm_datagram.h) in which they arrive. Anybody may have
+// sent these: every number in them is checked, and only bytes that have arrived take memory. Pure; used by
+// one thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fresco {
+
+struct AssembledMessage {
+  std::string channel;  ///< 1 to kMaximumLcmChannelBytes bytes
+  std::vector<std::byte> content;
+};
+
+class MessageAssembler {
+ public:
+  /// Incomplete messages take about so much memory at most. One alone may take more: up to
+  /// kMaximumLcmMessageBytes, if so many bytes of it have arrived.
+  static constexpr size_t kMemoryBytes = size_t{64} << 20;
+  /// A message that gets no further fragment for so long is given up.
+  static constexpr int64_t kPatienceUs = 10'000'000;
+
+  explicit MessageAssembler(size_t memory_limit_bytes = kMemoryBytes)
+      : memory_limit_bytes_(memory_limit_bytes) {}
+
+  /// Returns the message that this datagram is, or completes. `sender` is its IPv4 address and port as one
+  /// number, `utime` the time of arrival in microseconds.
+  ///
+  /// Refuses a datagram that is not LCM's, a fragment that lies outside of its message, and a fragment that
+  /// contradicts an earlier one of the same message: another size or count, another content of the same
+  /// number, an overlap. A fragment that comes again as it was changes nothing. If there is no memory, the
+  /// message that has waited longest for a fragment is given up.
+  std::optional<AssembledMessage> Take(std::span<const std::byte> datagram, uint64_t sender, int64_t utime);
+
+  int64_t refused_datagrams() const { return refused_datagrams_; }
+  /// Messages of which fragments were taken and that have not come out: those given up, those whose fragments
+  /// left a hole, and those that still wait for fragments.
+  int64_t incomplete_messages() const { return given_up_ + static_cast<int64_t>(messages_.size()); }
+  /// What the messages take that still wait for fragments.
+  size_t memory_bytes() const { return memory_bytes_; }
+
+ private:
+  using Key = std::pair<uint64_t, uint32_t>;  // sender and sequence
+
+  struct Fragment {
+    uint32_t sequence;
+    uint32_t message_bytes;
+    uint32_t offset;
+    uint16_t number;
+    uint16_t count;
+    std::span<const std::byte> data;
+    std::string_view channel = {};  // of fragment 0
+  };
+
+  /// Where the data of a fragment are, in the message and among the bytes that have arrived.
+  struct Place {
+    uint32_t offset;
+    uint32_t bytes;
+    size_t arrived_at;
+  };
+
+  struct Incomplete {
+    Key key;
+    uint32_t message_bytes;
+    uint16_t count;
+    int64_t touched_utime = 0;
+    std::string channel = {};
+    std::map<uint16_t, Place> places = {};  // by number; the offsets ascend with it
+    std::vector<std::byte> arrived = {};
+  };
+  using Messages = std::list<Incomplete>;
+
+  static std::optional<Fragment> ParseFragment(std::span<const std::byte> datagram);
+  static bool Agrees(const Incomplete& message, const Fragment& fragment);
+  static bool IsAtPlace(const Incomplete& message, const Place& place, const Fragment& fragment);
+  static size_t MemoryBytes(const Incomplete& message);
+  static std::vector<std::byte> InOrder(Incomplete message);
+
+  std::optional<AssembledMessage> TakeWhole(std::span<const std::byte> datagram);
+  std::optional<AssembledMessage> TakeFragment(const Fragment& fragment, uint64_t sender, int64_t utime);
+  std::optional<AssembledMessage> Refuse();
+  Messages::iterator FindOrBegin(const Fragment& fragment, uint64_t sender);
+  void Add(const Fragment& fragment, Incomplete& message);
+  std::optional<AssembledMessage> Finish(Messages::iterator message);
+  Incomplete Remove(Messages::iterator message);
+  void GiveUpTheSilent(int64_t utime);
+
+  size_t memory_limit_bytes_;
+  size_t memory_bytes_ = 0;
+  Messages messages_;  // first the one that has waited longest for a fragment
+  std::map<Key, Messages::iterator> by_key_;
+  int64_t refused_datagrams_ = 0;
+  int64_t given_up_ = 0;
+};
+
+}  // namespace fresco
