@@ -12,8 +12,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/identifier.h"
-#include "core/state_signal.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "core/version.h"
 #include "msgs/settings.h"
 

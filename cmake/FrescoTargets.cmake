@@ -39,10 +39,16 @@ function(fresco_executable name)
   target_link_libraries(${name} PRIVATE fresco_compile_options fresco_warnings)
 endfunction()
 
-# Sources of tests are compiled once and run for seconds: under a sanitizer, where the optimiser takes most of
-# the compiler's time, they do without it. The libraries that they test do not.
+# Sources that no run spends time in are compiled with little optimisation, since that takes most of the
+# compiler's time: the command line and the reports, and tests (with a sanitizer without any).
+add_library(fresco_quick_to_compile INTERFACE)
+target_compile_options(fresco_quick_to_compile INTERFACE $<$<NOT:$<CONFIG:Debug>>:-O1>)
+
 add_library(fresco_test_options INTERFACE)
 target_compile_options(fresco_test_options INTERFACE $<$<BOOL:${FRESCO_SANITIZE}>:-O0>)
+if(NOT FRESCO_SANITIZE)
+  target_link_libraries(fresco_test_options INTERFACE fresco_quick_to_compile)
+endif()
 target_link_libraries(fresco_test_options INTERFACE fresco_compile_options fresco_warnings)
 
 # fresco_test_headers(name LIBRARIES ... HEADERS ...): headers that are compiled once for many tests.

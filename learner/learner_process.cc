@@ -9,8 +9,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/state_signal.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 
 namespace fresco {
 namespace {

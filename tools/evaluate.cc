@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "tools/flight_json.h"
 #include "tools/flown_policy.h"
 #include "tools/subcommands.h"

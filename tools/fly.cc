@@ -9,7 +9,7 @@
 #include "core/attentive_clock.h"
 #include "core/clock.h"
 #include "core/identifier.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "msgs/channels.h"
 #include "msgs/scenario_codec.h"
 #include "tools/flight_messages.h"

@@ -3,7 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "core/error.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "core/version.h"
 #include "tools/subcommands.h"
 

@@ -11,7 +11,7 @@
 #include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "msgs/checkpoint_file.h"
 #include "tools/live_line.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bus/command_line.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "msgs/settings.h"
 #include "tools/installation.h"
 #include "tools/live_line.h"

@@ -20,7 +20,7 @@ Experiment With(const std::vector<std::string>& arguments, const std::string& te
   return Experiment::Parse(text, "test", ParseSettings(arguments));
 }
 
-std::string ErrorWith(const std::string& argument, const std::string& text = "") {
+std::string ErrorOfSetting(const std::string& argument, const std::string& text = "") {
   return UsageErrorOf([&] { With({argument}, text); });
 }
 
@@ -79,13 +79,13 @@ TEST(Settings, RefuseIndexesThatAreNotThere) {
        {"scenario.sensor[2].x_m", "scenario.sensor[-1].x_m", "scenario.sensor[x].x_m",
         "scenario.sensor[0.x_m", "scenario.sensor[.x_m", "scenario.sensor[", "[", "scenario.sensor[].x_m",
         "scenario.sensor.x_m", "scenario[0].slots", "scenario.sensor[99999999999].x_m"}) {
-    EXPECT_THAT(ErrorWith(path + "=1", kTwoSensors), HasSubstr("--set " + path)) << path;
+    EXPECT_THAT(ErrorOfSetting(path + "=1", kTwoSensors), HasSubstr("--set " + path)) << path;
   }
 }
 
 TEST(Settings, RefuseAnIndexAtTheEndOfThePath) {
   for (const std::string path : {"agent.hidden_layers[0]", "schedule.seed[0]", "scenario.sensor[0]"}) {
-    EXPECT_THAT(ErrorWith(path + "=1"), HasSubstr("--set " + path)) << path;
+    EXPECT_THAT(ErrorOfSetting(path + "=1"), HasSubstr("--set " + path)) << path;
   }
 }
 
@@ -96,12 +96,12 @@ TEST(Settings, TakeStringsWithAndWithoutQuotes) {
 }
 
 TEST(Settings, NameAnUnknownFieldAndTheKnownOnes) {
-  EXPECT_THAT(ErrorWith("agent.bach_size=3"),
+  EXPECT_THAT(ErrorOfSetting("agent.bach_size=3"),
               AllOf(HasSubstr("--set agent.bach_size"), HasSubstr("batch_size")));
-  EXPECT_THAT(ErrorWith("nothing=3"),
+  EXPECT_THAT(ErrorOfSetting("nothing=3"),
               AllOf(HasSubstr("nothing"), HasSubstr("scenario, agent, schedule, run")));
-  EXPECT_THAT(ErrorWith("agent..x=3"), HasSubstr("--set agent..x"));
-  EXPECT_THAT(ErrorWith("schedule.seed.x=3"), HasSubstr("--set schedule.seed.x"));
+  EXPECT_THAT(ErrorOfSetting("agent..x=3"), HasSubstr("--set agent..x"));
+  EXPECT_THAT(ErrorOfSetting("schedule.seed.x=3"), HasSubstr("--set schedule.seed.x"));
 }
 
 TEST(Settings, NameTheValueThatIsNotOneOfTheField) {
@@ -112,13 +112,13 @@ TEST(Settings, NameTheValueThatIsNotOneOfTheField) {
         "run.lcm_url=a\"b", "run.lcm_url=\"a\" actors: 3", "schedule.seed=3 episodes: 4",
         "schedule.seed=3\nepisodes: 4"}) {
     const std::string path = argument.substr(0, argument.find('='));
-    EXPECT_THAT(ErrorWith(argument), AllOf(HasSubstr("--set " + path), HasSubstr("is not a value")))
+    EXPECT_THAT(ErrorOfSetting(argument), AllOf(HasSubstr("--set " + path), HasSubstr("is not a value")))
         << argument;
   }
 }
 
 TEST(Settings, AreCheckedAgainstTheRangesLikeTheText) {
-  EXPECT_THAT(ErrorWith("agent.batch_size=0"),
+  EXPECT_THAT(ErrorOfSetting("agent.batch_size=0"),
               HasSubstr("agent.batch_size: 0 is out of range; allowed: 1 to 65536"));
 }
 

@@ -57,7 +57,7 @@ std::string WithSpread(const MeanEstimate& estimate, int digits) {
          (estimate.half_width ? fmt::format(" ± {}", Number(*estimate.half_width, digits)) : "");
 }
 
-CsvCell CellOf(const std::optional<double>& value) {
+CsvCell CellOrEmpty(const std::optional<double>& value) {
   return value ? CsvCell(*value) : CsvCell(std::string());
 }
 
@@ -153,10 +153,10 @@ class FigureWriter {
       std::vector<CsvCell> row = {static_cast<int64_t>(group.x), static_cast<int64_t>(group.results.size())};
       for (const Policy& policy : kPolicies) {
         const MeanEstimate estimate = group.Average(policy);
-        row.insert(row.end(), {estimate.mean, CellOf(estimate.half_width)});
+        row.insert(row.end(), {estimate.mean, CellOrEmpty(estimate.half_width)});
       }
       const MeanEstimate gap = group.Gap();
-      row.insert(row.end(), {gap.mean, CellOf(gap.half_width), group.LargestGap()});
+      row.insert(row.end(), {gap.mean, CellOrEmpty(gap.half_width), group.LargestGap()});
       rows.push_back(std::move(row));
     }
     WriteCsv(folder_ / fmt::format("{}.csv", figure.file), header, rows);
@@ -242,7 +242,7 @@ class FigureWriter {
     std::vector<std::vector<CsvCell>> rows;
     for (const LearningPoint& point : curve.points) {
       rows.push_back(
-          {point.updates, point.average_aoi, int64_t{point.arrived}, CellOf(curve.optimum_average_aoi)});
+          {point.updates, point.average_aoi, int64_t{point.arrived}, CellOrEmpty(curve.optimum_average_aoi)});
     }
     WriteCsv(folder_ / "learning_curve.csv", {"updates", "average_aoi", "arrived", "optimal_average_aoi"},
              rows);

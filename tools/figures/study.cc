@@ -9,7 +9,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "tools/figures/study_folder.h"
 #include "tools/live_line.h"
 #include "tools/training_run.h"

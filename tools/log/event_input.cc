@@ -4,7 +4,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "tools/live_line.h"
 #include "tools/log/event_source.h"
 

@@ -10,7 +10,7 @@
 #include "bus/bus.h"
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "tools/log/bus_losses.h"
 
 namespace fresco {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/error.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "tools/live_line.h"
 #include "tools/log/event_input.h"
 #include "tools/log/event_source.h"

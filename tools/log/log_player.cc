@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/clock.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 
 namespace fresco {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/clock.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "tools/live_line.h"
 #include "tools/log/bus_losses.h"
 #include "tools/log/log_commands.h"

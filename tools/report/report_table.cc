@@ -35,7 +35,7 @@ std::vector<bool> NumericColumns(const ReportTable& table) {
   return numeric;
 }
 
-std::string Cell(std::string_view tag, bool number, const std::string& text) {
+std::string TableCell(std::string_view tag, bool number, const std::string& text) {
   return fmt::format("<{}{}>{}</{}>", tag, number ? " class=\"number\"" : "", EscapedHtml(text),
                      tag.substr(0, 2));
 }
@@ -43,7 +43,7 @@ std::string Cell(std::string_view tag, bool number, const std::string& text) {
 std::string HeaderRow(const std::vector<std::string>& cells, const std::vector<bool>& numeric) {
   std::string html = "<tr>";
   for (size_t column = 0; column < cells.size(); ++column) {
-    html += Cell("th scope=\"col\"", numeric[column], cells[column]);
+    html += TableCell("th scope=\"col\"", numeric[column], cells[column]);
   }
   return html + "</tr>\n";
 }
@@ -51,7 +51,7 @@ std::string HeaderRow(const std::vector<std::string>& cells, const std::vector<b
 std::string Row(const std::vector<std::string>& cells, const std::vector<bool>& numeric) {
   std::string html = "<tr>";
   for (size_t column = 0; column < cells.size(); ++column) {
-    html += Cell(column == 0 ? "th scope=\"row\"" : "td", numeric[column], cells[column]);
+    html += TableCell(column == 0 ? "th scope=\"row\"" : "td", numeric[column], cells[column]);
   }
   return html + "</tr>\n";
 }

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "core/identifier.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "learner/optimum_search.h"
 #include "learner/summary.h"
 #include "tools/live_line.h"

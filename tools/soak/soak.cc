@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/stop_signal.h"
+#include "core/signals.h"
 #include "tools/live_line.h"
 #include "tools/soak/soak_options.h"
 #include "tools/soak/soak_report.h"

@@ -1,4 +1,4 @@
-#include "core/state_signal.h"
+#include "core/signals.h"
 
 #include <gtest/gtest.h>
 
