@@ -10,7 +10,7 @@ namespace {
 std::atomic<bool> state_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void HandleSignal(int) {
+void HandleStateSignal(int) {
   state_requested.store(true, std::memory_order_relaxed);
 }
 
@@ -18,7 +18,7 @@ void HandleSignal(int) {
 
 void StateSignal::Install() {
   struct sigaction action = {};
-  action.sa_handler = HandleSignal;
+  action.sa_handler = HandleStateSignal;
   action.sa_flags = SA_RESTART;  // nothing that is under way may fail by it
   sigemptyset(&action.sa_mask);
   sigaction(SIGUSR1, &action, nullptr);

@@ -10,7 +10,7 @@ namespace {
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-void HandleSignal(int signal_number) {
+void HandleStopSignal(int signal_number) {
   if (stop_requested.exchange(true)) {
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);
@@ -21,7 +21,7 @@ void HandleSignal(int signal_number) {
 
 void StopSignal::Install() {
   struct sigaction action = {};
-  action.sa_handler = HandleSignal;
+  action.sa_handler = HandleStopSignal;
   sigemptyset(&action.sa_mask);
   // No SA_RESTART: a program that waits in poll wakes up and sees the request.
   for (const int signal_number : {SIGINT, SIGTERM}) {
