@@ -3,13 +3,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 
 #include "actors/actor.h"
 #include "bus/command_line.h"
 #include "core/clock.h"
+#include "core/command_line.h"
 #include "core/error.h"
 #include "core/identifier.h"
 #include "core/signals.h"
@@ -66,7 +66,8 @@ void Serve(const Arguments& arguments) {
 int Main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "Flies episodes for Fresco's learner: waits on the bus for a run, serves it, waits for the next.");
+      "Flies episodes for Fresco's learner: waits on the bus for a run, serves it, waits for the next.",
+      "fresco-actor");
   app.set_version_flag("--version", kSoftwareVersion);
   app.add_option("--lcm-url", arguments.lcm_url, "Where the learner is")->capture_default_str();
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
@@ -76,12 +77,9 @@ int Main(int argc, char** argv) {
   app.add_option("--environments", arguments.environments, "Episodes flown side by side; 0: as the run says")
       ->check(CLI::Range(0, 4096));
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
+  if (ParseCommandLine(app, argc, argv)) {
+    Serve(arguments);
   }
-  Serve(arguments);
   return 0;
 }
 

@@ -1,5 +1,4 @@
 // The options of a program's command line that say how it is on the bus: the same in every program.
-// Who includes it links CLI11.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -8,9 +8,9 @@ namespace fresco {
 
 }  // namespace fresco
 
-#define FRESCO_CHECK(condition)                              \
-  do {                                                       \
-    if (!(condition)) [[unlikely]] {                         \
-      ::fresco::CheckFailed(__FILE__, __LINE__, #condition); \
-    }                                                        \
+#define FRESCO_CHECK(condition)                                   \
+  do {                                                            \
+    if (!(condition)) [[unlikely]] {                              \
+      ::fresco::CheckFailed(__FILE_NAME__, __LINE__, #condition); \
+    }                                                             \
   } while (false)

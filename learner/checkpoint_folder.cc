@@ -22,19 +22,22 @@ bool IsCheckpointName(const std::filesystem::path& path) {
          std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-void SetAside(const std::filesystem::path& path) {
-  const std::filesystem::path aside = path.string() + kUnusable;
-  std::error_code error;
-  std::filesystem::rename(path, aside, error);
-  if (error) {
-    throw Failure(
-        fmt::format("can't rename {} to {}: {}; it has to make room for the checkpoints to come, remove it",
-                    path.string(), aside.filename().string(), error.message()));
-  }
-  spdlog::warn("renamed {} to {}", path.string(), aside.filename().string());
-}
-
 }  // namespace
+
+void SetAside(const std::vector<UnusableCheckpoint>& checkpoints) {
+  for (const auto& [path, problem] : checkpoints) {
+    const std::filesystem::path aside = path.string() + kUnusable;
+    std::error_code error;
+    std::filesystem::rename(path, aside, error);
+    if (error) {
+      throw Failure(
+          fmt::format("can't rename {} to {}: {}; it has to make room for the checkpoints to come, remove it",
+                      path.string(), aside.filename().string(), error.message()));
+    }
+    spdlog::warn("{}; renamed to {}, going on from the checkpoint before", problem,
+                 aside.filename().string());
+  }
+}
 
 std::filesystem::path CheckpointFolder::PathFor(int64_t committed_orders) const {
   return directory_ / fmt::format("{:0{}}{}", committed_orders, kDigits, kExtension);
@@ -68,28 +71,27 @@ void CheckpointFolder::Prune(int kept) const {
   }
 }
 
-std::optional<Checkpoint> CheckpointFolder::TakeLatest(const Check& check) const {
-  const std::vector<std::filesystem::path> paths = Latest();
-  std::vector<std::string> problems;  // one for each that is later than the one taken
-  std::optional<Checkpoint> taken;
-  for (size_t i = 0; i < paths.size() && !taken; ++i) {
+CheckpointFolder::Found CheckpointFolder::FindLatest(const Check& check) const {
+  Found found;
+  for (const std::filesystem::path& path : Latest()) {
     try {
-      Checkpoint checkpoint = ParseCheckpoint(ReadFile(paths[i]), paths[i].string());
-      check(checkpoint, paths[i]);
-      taken = std::move(checkpoint);
+      Checkpoint checkpoint = ParseCheckpoint(ReadFile(path), path.string());
+      check(checkpoint, path);
+      found.checkpoint = std::move(checkpoint);
+      return found;
     } catch (const Error& error) {
-      problems.emplace_back(error.what());
+      found.unusable.push_back({path, error.what()});
     }
   }
-  if (!taken && !paths.empty()) {
-    throw UsageError(fmt::format("{}: none of its {} checkpoints can be used:\n  {}", directory_.string(),
-                                 paths.size(), fmt::join(problems, "\n  ")));
+  if (!found.unusable.empty()) {
+    std::string problems;
+    for (const UnusableCheckpoint& checkpoint : found.unusable) {
+      problems += "\n  " + checkpoint.problem;
+    }
+    throw UsageError(fmt::format("{}: none of its {} checkpoints can be used:{}", directory_.string(),
+                                 found.unusable.size(), problems));
   }
-  for (size_t later = 0; later < problems.size(); ++later) {
-    spdlog::warn("{}; going on from {} instead", problems[later], paths[problems.size()].filename().string());
-    SetAside(paths[later]);
-  }
-  return taken;
+  return found;
 }
 
 }  // namespace fresco

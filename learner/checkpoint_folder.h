@@ -14,6 +14,17 @@
 
 namespace fresco {
 
+/// A checkpoint that a run can't go on from, and why.
+struct UnusableCheckpoint {
+  std::filesystem::path path;
+  std::string problem;
+};
+
+/// Renames them to NAME.unusable (in place of older ones of that name), so that they count as none of those
+/// that CheckpointFolder::Prune keeps, and says so in the log. The caller holds the folder's lock. Throws
+/// Failure if one can't be renamed.
+void SetAside(const std::vector<UnusableCheckpoint>& checkpoints);
+
 class CheckpointFolder {
  public:
   /// Of the run's folder `run`, which need not have any.
@@ -34,11 +45,15 @@ class CheckpointFolder {
   /// Throws UsageError with the reason where a whole checkpoint, read from the file, can't be used.
   using Check = std::function<void(const Checkpoint&, const std::filesystem::path&)>;
 
-  /// The latest one that can be read, is whole and passes the check. Later ones are renamed to NAME.unusable
-  /// (in place of an older one of that name), so that they count as none of those that Prune keeps; the log
-  /// says what is wrong with them. None: there is no checkpoint at all. Throws UsageError where there are
-  /// some and none is usable; then nothing is renamed. The caller holds the folder's lock.
-  std::optional<Checkpoint> TakeLatest(const Check& check) const;
+  /// What a run can go on from.
+  struct Found {
+    std::optional<Checkpoint> checkpoint = {};      ///< none: there is no checkpoint at all
+    std::vector<UnusableCheckpoint> unusable = {};  ///< those that are later than this one
+  };
+
+  /// Finds the latest checkpoint that can be read, is whole and passes the check. Throws UsageError if there
+  /// are some and none is usable. Changes nothing. The caller holds the folder's lock.
+  Found FindLatest(const Check& check) const;
 
  private:
   std::filesystem::path directory_;

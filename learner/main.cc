@@ -2,24 +2,26 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <exception>
 
 #include "bus/command_line.h"
+#include "core/command_line.h"
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "core/identifier.h"
+#include "core/output_folder.h"
 #include "core/signals.h"
 #include "core/version.h"
 #include "learner/learner_process.h"
 #include "learner/resumption.h"
+#include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
 
 namespace fresco {
 namespace {
 
 struct Arguments {
-  std::string config = "configs/quick.textproto";
+  std::string config = kDefaultExperiment;
   std::vector<std::string> settings;
   std::string lcm_url;
   std::string out;
@@ -42,19 +44,23 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
   if (arguments.out.empty()) {
     throw UsageError("--out: name the run's folder (or --resume one)");
   }
-  const Experiment experiment = Experiment::Load(arguments.config, settings);
-  // Before the folder: a wrong URL or key file leaves nothing behind.
+  // All checks before the folder is made: wrong use leaves nothing behind.
+  const Experiment experiment = Experiment::Load(ExperimentPath(arguments.config), settings);
+  const int64_t run_id = RunIdFrom(arguments);
+  RunFolder::CheckNew(arguments.out);
   const std::unique_ptr<Bus> bus = OpenBus(experiment.run().lcm_url(), arguments.bus);
   RunFolder::Make(arguments.out);
   const FolderLock lock(arguments.out);
-  return Run(experiment, *bus, {arguments.out, RunIdFrom(arguments)});
+  return Run(experiment, *bus, {arguments.out, run_id});
 }
 
 int Resume(const Arguments& arguments, const Settings& settings) {
   const FolderLock lock(arguments.resume, kResumePatienceUs);
   Resumption resumption = ReadResumption(arguments.resume, settings);
   const int64_t run_id = resumption.checkpoint ? resumption.checkpoint->run_id : RunIdFrom(arguments);
+  CheckOutputFolder(arguments.resume, "--resume");
   const std::unique_ptr<Bus> bus = OpenBus(resumption.experiment.run().lcm_url(), arguments.bus);
+  SetAside(resumption.unusable);
   return Run(resumption.experiment, *bus,
              {arguments.resume, run_id, RunFolder::Use::kResume, std::move(resumption.checkpoint)});
 }
@@ -62,10 +68,10 @@ int Resume(const Arguments& arguments, const Settings& settings) {
 int Main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "Trains a DQN from the transitions that actors send over LCM. `fresco train` starts it for you.");
+      "Trains a DQN from the transitions that actors send over LCM. `fresco train` starts it for you.",
+      "fresco-learner");
   app.set_version_flag("--version", kSoftwareVersion);
-  CLI::Option* config =
-      app.add_option("--config", arguments.config, "Experiment, in text format")->capture_default_str();
+  CLI::Option* config = app.add_option("--config", arguments.config, ConfigHelp());
   app.add_option("--set", arguments.settings, "Overrides one field: path=value; may be repeated");
   app.add_option("--lcm-url", arguments.lcm_url, "Overrides run.lcm_url");
   CLI::Option* out = app.add_option("--out", arguments.out, "The run's folder");
@@ -75,10 +81,8 @@ int Main(int argc, char** argv) {
       ->excludes(out);
   app.add_option("--run-id", arguments.run_id, "Name of the run (16 hexadecimal digits); default: drawn");
   AddBusOptions(app, arguments.bus);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
+  if (!ParseCommandLine(app, argc, argv)) {
+    return 0;
   }
   Settings settings = ParseSettings(arguments.settings);
   if (!arguments.lcm_url.empty()) {

@@ -6,7 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "learner/checkpoint_folder.h"
+#include "learner/run_folder.h"
 
 namespace fresco {
 namespace {
@@ -44,17 +44,16 @@ Resumption ReadResumption(const std::filesystem::path& folder, const Settings& s
   if (!std::filesystem::exists(config)) {
     throw UsageError(
         fmt::format("--resume: {} is not the folder of a run: it has no config.textproto; name the folder "
-                    "that the run was "
-                    "started with (--out)",
-                    folder.string()));
+                    "that the run was started with (--out){}",
+                    folder.string(), NewestRunHint(folder, "config.textproto")));
   }
   RefuseCompleteRun(folder);
   Experiment experiment = Experiment::Load(config.string(), settings);
   const auto check = [&](const Checkpoint& checkpoint, const std::filesystem::path& path) {
     CheckOrigin(checkpoint, experiment, path.string());
   };
-  std::optional<Checkpoint> checkpoint = CheckpointFolder(folder).TakeLatest(check);
-  return {std::move(experiment), std::move(checkpoint)};
+  CheckpointFolder::Found found = CheckpointFolder(folder).FindLatest(check);
+  return {std::move(experiment), std::move(found.checkpoint), std::move(found.unusable)};
 }
 
 }  // namespace fresco

@@ -4,24 +4,26 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
-#include "msgs/checkpoint_file.h"
+#include "learner/checkpoint_folder.h"
 #include "msgs/experiment.h"
 
 namespace fresco {
 
 struct Resumption {
   Experiment experiment;
-  std::optional<Checkpoint> checkpoint;  ///< none: the run goes on from its beginning
+  std::optional<Checkpoint> checkpoint;      ///< none: the run goes on from its beginning
+  std::vector<UnusableCheckpoint> unusable;  ///< later ones; the learner that goes on does SetAside
 };
 
 /// For the lock of a folder that is to be resumed: a learner that was told to end may still be writing.
 inline constexpr int64_t kResumePatienceUs = 5'000'000;
 
 /// Reads the folder of an incomplete run; the caller holds its lock. The settings may change `run` only.
-/// Takes the latest checkpoint that is whole, of this configuration and of this program's arithmetic, and
-/// renames later ones (learner/checkpoint_folder.h). Throws UsageError where the folder holds no run or a
-/// complete one, or has checkpoints of which none is usable.
+/// Finds the latest checkpoint that is whole, of this configuration and of this program's arithmetic. Changes
+/// nothing. Throws UsageError if the folder holds no run or a complete one, or has checkpoints of which none
+/// is usable.
 Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings);
 
 }  // namespace fresco

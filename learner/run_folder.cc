@@ -6,9 +6,19 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/folder_lock.h"
+#include "core/output_folder.h"
 #include "msgs/network_file.h"
 
 namespace fresco {
+
+void RunFolder::CheckNew(const std::filesystem::path& directory) {
+  CheckOutputFolder(directory);
+  if (std::filesystem::exists(directory)) {
+    const FolderLock lock(directory);
+    RefuseResults(directory);
+  }
+}
 
 void RunFolder::Make(const std::filesystem::path& directory) {
   std::error_code error;
@@ -27,23 +37,23 @@ RunFolder::RunFolder(std::filesystem::path directory, const Experiment& experime
           "average_aoi,sum_aoi\n") {
   Make(directory_);
   if (use == Use::kNewRun) {
-    RefuseResults();
+    RefuseResults(directory_);
   } else {
     ClearLeftovers();
   }
   WriteFileAtomically(directory_ / "config.textproto", experiment.Text());
 }
 
-void RunFolder::RefuseResults() const {
-  if (std::filesystem::exists(directory_ / "summary.json")) {
+void RunFolder::RefuseResults(const std::filesystem::path& directory) {
+  if (std::filesystem::exists(directory / "summary.json")) {
     throw UsageError(
-        fmt::format("--out: {} holds another run's results; name a new folder", directory_.string()));
+        fmt::format("--out: {} holds another run's results; name a new folder", directory.string()));
   }
-  if (!checkpoints_.Latest().empty()) {
+  if (!CheckpointFolder(directory).Latest().empty()) {
     throw UsageError(
         fmt::format("--out: {} holds a run that did not end; go on with it (--resume {}) or "
                     "name a new folder",
-                    directory_.string(), directory_.string()));
+                    directory.string(), directory.string()));
   }
 }
 
@@ -96,6 +106,20 @@ void RunFolder::WriteSummary(const std::string& json) {
 
 void RunFolder::WriteOptimum(const std::string& json) {
   WriteFileAtomically(directory_ / "optimum.json", json + "\n");
+}
+
+std::string NewestRunHint(const std::filesystem::path& folder, const std::string& file) {
+  std::filesystem::path newest;
+  std::filesystem::file_time_type newest_time;
+  std::error_code error;  // what can't be looked at is no run
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const auto time = std::filesystem::last_write_time(entry.path() / file, error);
+    if (!error && (newest.empty() || time > newest_time)) {
+      newest = entry.path();
+      newest_time = time;
+    }
+  }
+  return newest.empty() ? "" : "; the newest run in it is " + newest.string();
 }
 
 }  // namespace fresco

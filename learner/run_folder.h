@@ -18,6 +18,10 @@ class RunFolder {
  public:
   enum class Use { kNewRun, kResume };
 
+  /// Checks, without making or changing anything, that a new run can have this folder: it can be made or
+  /// written to, no process works in it, and it holds no other run. Throws UsageError otherwise.
+  static void CheckNew(const std::filesystem::path& directory);
+
   /// Makes a folder, and those above it. Throws UsageError where it can't.
   static void Make(const std::filesystem::path& directory);
 
@@ -52,7 +56,7 @@ class RunFolder {
  private:
   static constexpr char kCheckpoint[] = "checkpoint";
 
-  void RefuseResults() const;
+  static void RefuseResults(const std::filesystem::path& directory);
   void ClearLeftovers() const;
 
   std::filesystem::path directory_;
@@ -61,5 +65,9 @@ class RunFolder {
   std::string metrics_;
   FileWriter writer_;
 };
+
+/// For an error's text, if `folder` is not the folder of a run but holds such folders: "; the newest run in
+/// it is runs/NAME", that with the newest `file`. "" if no folder in it has that file.
+std::string NewestRunHint(const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace fresco

@@ -10,6 +10,8 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
+#include "msgs/field_names.h"
 #include "msgs/proto/options.pb.h"
 
 namespace fresco {
@@ -98,14 +100,12 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
   return part;
 }
 
-[[noreturn]] void ThrowUnknownField(const Descriptor& descriptor, const std::string& name,
-                                    const std::string& path) {
-  std::string known;
-  for (int i = 0; i < descriptor.field_count(); ++i) {
-    known += (i == 0 ? "" : ", ") + descriptor.field(i)->name();
-  }
-  throw UsageError(
-      fmt::format("--set {}: there is no field \"{}\"; {} has: {}", path, name, descriptor.name(), known));
+/// `descriptor` is the part of `configuration` that was expected to have the field.
+[[noreturn]] void ThrowUnknownField(const Descriptor& configuration, const Descriptor& descriptor,
+                                    const std::string& name, const std::string& path) {
+  throw UsageError(fmt::format("--set {}: there is no field \"{}\"; {} has: {}{}", path, name,
+                               descriptor.name(), fmt::join(FieldNames(descriptor), ", "),
+                               DidYouMean(path, FieldPaths(configuration))));
 }
 
 /// One value, of the whole text: whatever follows it is an error.
@@ -138,13 +138,14 @@ void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& 
   }
 }
 
-void SetFieldBelow(Message& message, const std::string& rest, const std::string& path,
-                   const std::string& value) {
+/// `message` is a part of `configuration`, `rest` the part of `path` that begins there.
+void SetFieldBelow(const Descriptor& configuration, Message& message, const std::string& rest,
+                   const std::string& path, const std::string& value) {
   const size_t dot = rest.find('.');
   const PathPart part = ParsePathPart(rest.substr(0, dot), path);
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(part.name);
   if (field == nullptr) {
-    ThrowUnknownField(*message.GetDescriptor(), part.name, path);
+    ThrowUnknownField(configuration, *message.GetDescriptor(), part.name, path);
   }
   if (dot == std::string::npos) {
     if (part.index >= 0) {
@@ -161,7 +162,7 @@ void SetFieldBelow(Message& message, const std::string& rest, const std::string&
   }
   Message* below = field->is_repeated() ? reflection.MutableRepeatedMessage(&message, field, part.index)
                                         : reflection.MutableMessage(&message, field);
-  SetFieldBelow(*below, rest.substr(dot + 1), path, value);
+  SetFieldBelow(configuration, *below, rest.substr(dot + 1), path, value);
 }
 
 }  // namespace
@@ -206,7 +207,7 @@ void CheckRanges(const Message& message, const std::string& origin, const std::s
 }
 
 void SetField(Message& message, const std::string& path, const std::string& value) {
-  SetFieldBelow(message, path, path, value);
+  SetFieldBelow(*message.GetDescriptor(), message, path, path, value);
 }
 
 }  // namespace fresco

@@ -18,8 +18,8 @@ void CheckRanges(const google::protobuf::Message& message, const std::string& or
                  const std::string& path = "");
 
 /// Sets the field at a dotted path ("agent.linear.initial", "scenario.sensor[1].x_m") from text; a
-/// repeated field takes values separated by commas. Throws UsageError naming the path where it is
-/// unknown or the value does not parse.
+/// repeated field takes values separated by commas. Throws UsageError naming the path if it is unknown (with
+/// the nearest one) or if the value does not parse.
 void SetField(google::protobuf::Message& message, const std::string& path, const std::string& value);
 
 }  // namespace fresco

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "msgs/channels.h"
 #include "msgs/config_reflection.h"
+#include "msgs/field_names.h"
 #include "msgs/wire.h"
 #include "uav/radio.h"
 #include "uav/world.h"
@@ -40,7 +41,8 @@ proto::ExperimentConfig ParseText(const std::string& text, const std::string& or
   google::protobuf::TextFormat::Parser parser;
   parser.RecordErrorsTo(&error);
   if (!parser.ParseFromString(text, &config)) {
-    throw UsageError(error.text() + "; the fields and their meaning stand in msgs/proto/experiment.proto");
+    throw UsageError(error.text() + "; the fields and their meaning stand in msgs/proto/experiment.proto" +
+                     DidYouMeanField(error.text()));
   }
   return config;
 }

@@ -38,7 +38,7 @@ void PrintProof(const Plan& plan) {
 }
 
 int Evaluate(const EvaluateOptions& options) {
-  const FlownPolicy flown = FlyPolicy(options.choice);
+  const FlownPolicy flown = FlyPolicy(options.choice, ReadChoice(options.choice));
   if (options.format == "json") {
     fmt::print("{}\n", FlightJson(flown.world, flown.flight, options.choice.policy, flown.plan));
     return StopSignal::Requested() ? 1 : 0;
@@ -56,7 +56,7 @@ void AddEvaluate(CLI::App& app, Command& command) {
   auto options = std::make_shared<EvaluateOptions>();
   CLI::App* evaluate = app.add_subcommand("evaluate", "Fly one episode greedily and show it slot by slot");
   AddPolicyOptions(*evaluate, options->choice);
-  evaluate->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  evaluate->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   options->choice.limits.show_progress = true;
   evaluate->callback([options, &command] { command = [options] { return Evaluate(*options); }; });
 }

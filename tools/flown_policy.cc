@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
-#include "tools/installation.h"
 
 namespace fresco {
 namespace {
 
 Experiment GivenExperiment(const PolicyChoice& choice) {
-  return Experiment::Load(choice.config.empty() ? DefaultConfigPath() : choice.config,
+  return Experiment::Load(ExperimentPath(choice.config.empty() ? kDefaultExperiment : choice.config),
                           ParseSettings(choice.settings));
 }
 
@@ -32,11 +32,9 @@ Experiment ExperimentOfNetwork(const PolicyChoice& choice, const StoredNetwork& 
 
 void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
   app.add_option("--config", choice.config,
-                 "Experiment; default: that of the trained policy, or quick.textproto");
+                 ConfigHelp(std::string("that of the trained policy, or ") + kDefaultExperiment));
   app.add_option("--set", choice.settings, "Override one field: path=value; may be repeated");
-  app.add_option("--policy", choice.policy,
-                 "aoi, distance, optimal, a run's folder, a network file or a checkpoint")
-      ->required();
+  app.add_option("--policy", choice.policy, kPolicyKinds)->required();
   app.add_option("--time-limit-s", choice.limits.seconds,
                  "optimal: end the search after so many seconds with what is proved; default: none")
       ->check(CLI::Range(0.001, 1e6));
@@ -47,22 +45,26 @@ void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
       ->check(CLI::Range(1, 1'000'000));
 }
 
-FlownPolicy FlyPolicy(const PolicyChoice& choice) {
-  if (choice.policy == "aoi" || choice.policy == "distance") {
-    FlownPolicy flown(GivenExperiment(choice));
-    flown.flight =
-        FlyBaseline(flown.world, choice.policy == "aoi" ? BaselineKind::kAoi : BaselineKind::kDistance);
-    return flown;
+ChosenPolicy ReadChoice(const PolicyChoice& choice) {
+  if (IsBuiltInPolicy(choice.policy)) {
+    return {GivenExperiment(choice), std::nullopt};
   }
-  if (choice.policy == "optimal") {
-    FlownPolicy flown(GivenExperiment(choice));
+  StoredNetwork network = ReadPolicy(choice.policy);
+  Experiment experiment = ExperimentOfNetwork(choice, network);
+  return {std::move(experiment), std::move(network)};
+}
+
+FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen) {
+  FlownPolicy flown(chosen.experiment);
+  if (chosen.network) {
+    flown.flight = FlyNetwork(flown.world, flown.experiment, *chosen.network);
+  } else if (choice.policy == kOptimalPolicy) {
     flown.plan = PlanWithin(flown.world, choice.limits);
     flown.flight = flown.plan->flight;
-    return flown;
+  } else {
+    flown.flight =
+        FlyBaseline(flown.world, choice.policy == kAoiPolicy ? BaselineKind::kAoi : BaselineKind::kDistance);
   }
-  const StoredNetwork network = ReadPolicy(choice.policy);
-  FlownPolicy flown(ExperimentOfNetwork(choice, network));
-  flown.flight = FlyNetwork(flown.world, flown.experiment, network);
   return flown;
 }
 

@@ -22,6 +22,15 @@ struct PolicyChoice {
 /// --config, --set, --policy, --time-limit-s, --memory-limit-mb. `choice` must outlive the parsing.
 void AddPolicyOptions(CLI::App& app, PolicyChoice& choice);
 
+/// A policy and the world that it is to fly in, read and checked.
+struct ChosenPolicy {
+  Experiment experiment;
+  std::optional<StoredNetwork> network;  ///< none: a baseline or the optimum
+};
+
+/// Throws UsageError if policy and configuration do not name one.
+ChosenPolicy ReadChoice(const PolicyChoice& choice);
+
 /// What was flown, and in which world.
 struct FlownPolicy {
   explicit FlownPolicy(const Experiment& given) : experiment(given), world(given.scenario()) {}
@@ -31,9 +40,9 @@ struct FlownPolicy {
   std::optional<Plan> plan;  ///< of the policy "optimal"
 };
 
-/// Flies one episode. Throws UsageError where policy and configuration do not name one. The search for the
-/// optimum ends early where the program is asked to stop.
-FlownPolicy FlyPolicy(const PolicyChoice& choice);
+/// Flies one episode of what ReadChoice has read. The search for the optimum ends early if the program is
+/// asked to stop.
+FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen);
 
 /// "aoi: arrived; average AoI 17.543 slots, total AoI 3684, 14211 J left".
 std::string FlightSummary(const World& world, const Flight& flight, const std::string& policy);

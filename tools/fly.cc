@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "bus/command_line.h"
 #include "core/attentive_clock.h"
 #include "core/clock.h"
 #include "core/identifier.h"
+#include "core/installation.h"
 #include "core/signals.h"
 #include "msgs/channels.h"
 #include "msgs/scenario_codec.h"
@@ -32,11 +34,11 @@ struct FlyOptions {
 /// at the same pace afterwards.
 class FlightShow {
  public:
-  FlightShow(const FlownPolicy& flown, const FlyOptions& options, const std::string& url)
+  FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
       : flown_(flown),
         messages_(FlightMessages(flown.world, flown.flight, options.choice.policy)),
         field_(ScenarioMessages(flown.world.scenario())),
-        bus_(OpenBus(url, options.bus)),
+        bus_(std::move(bus)),
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
         period_us_(1e6 / options.slots_per_s) {}
 
@@ -120,15 +122,18 @@ class FlightShow {
 
 /// A show without end is over when somebody ends it.
 int FlyOverBus(const FlyOptions& options) {
-  const FlownPolicy flown = FlyPolicy(options.choice);
+  const ChosenPolicy chosen = ReadChoice(options.choice);
+  const std::string url = options.lcm_url.empty() ? chosen.experiment.run().lcm_url() : options.lcm_url;
+  std::unique_ptr<Bus> bus =
+      OpenBus(url, options.bus);  // before the optimum is searched for, which may take long
+  const FlownPolicy flown = FlyPolicy(options.choice, chosen);
   if (StopSignal::Requested()) {
     return 1;
   }
-  const std::string url = options.lcm_url.empty() ? flown.experiment.run().lcm_url() : options.lcm_url;
-  FlightShow show(flown, options, url);
-  spdlog::info(
-      "{} on {}_FLIGHT, {} slots a second; watch it with: tools/fresco spy --open flight --lcm-url '{}'",
-      options.choice.policy, flown.experiment.run().channel_prefix(), options.slots_per_s, url);
+  FlightShow show(flown, options, std::move(bus));
+  spdlog::info("{} on {}_FLIGHT, {} slots a second; watch it with: {} spy --open flight --lcm-url '{}'",
+               options.choice.policy, flown.experiment.run().channel_prefix(), options.slots_per_s,
+               ProgramName(), url);
   bool whole = show.Show();
   while (options.loop && whole) {
     whole = show.Show();

@@ -1,7 +1,8 @@
-// The program behind tools/fresco.
+// The program `fresco`, which tools/fresco builds and runs.
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "core/command_line.h"
 #include "core/error.h"
 #include "core/signals.h"
 #include "core/version.h"
@@ -23,13 +24,8 @@ int Main(int argc, char** argv) {
   AddSoak(app, command);
   AddLog(app, command);
   AddSpy(app, command);
-  app.footer("tools/fresco test runs all tests. Exit status: 0 done, 1 the work failed, 2 wrong use.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::kUsage);
-  }
-  return command();
+  app.footer("Exit status: 0 done, 1 the work failed, 2 wrong use.");
+  return ParseCommandLine(app, argc, argv) ? command() : 0;
 }
 
 }  // namespace

@@ -11,12 +11,16 @@
 #include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "core/signals.h"
+#include "learner/run_folder.h"
 #include "msgs/checkpoint_file.h"
 #include "tools/live_line.h"
 
 namespace fresco {
 namespace {
+
+constexpr char kBestNetwork[] = "best.network";
 
 std::string Describe(const World& world, const PlannerProgress& progress, double passed_s) {
   return fmt::format(
@@ -26,19 +30,30 @@ std::string Describe(const World& world, const PlannerProgress& progress, double
       progress.lower_bound_average, progress.best_average);
 }
 
-}  // namespace
+[[noreturn]] void RefusePolicy(const std::string& problem) {
+  throw UsageError(fmt::format("--policy: expected {}; {}", kPolicyKinds, problem));
+}
 
-StoredNetwork ReadPolicy(const std::string& policy) {
-  std::filesystem::path path(policy);
-  if (!std::filesystem::exists(path)) {
-    throw UsageError(fmt::format(
-        "--policy: expected aoi, distance, optimal, a run's folder, a network file or a checkpoint; "
-        "\"{}\" is none of them",
-        policy));
+/// The file of the network or checkpoint.
+std::filesystem::path PolicyFile(const std::string& policy) {
+  const std::filesystem::path path(policy);
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    RefusePolicy(fmt::format("\"{}\" is none of them, and no such file is there{}", policy,
+                             DidYouMean(policy, {kAoiPolicy, kDistancePolicy, kOptimalPolicy})));
   }
-  if (std::filesystem::is_directory(path)) {
-    path /= "best.network";
+  if (!std::filesystem::is_directory(path, error)) {
+    return path;
   }
+  if (!std::filesystem::exists(path / kBestNetwork, error)) {
+    RefusePolicy(
+        fmt::format("the folder {} has no {}{}", policy, kBestNetwork, NewestRunHint(path, kBestNetwork)));
+  }
+  return path / kBestNetwork;
+}
+
+/// The network of a file, or the best one of a checkpoint.
+StoredNetwork ReadPolicyFile(const std::filesystem::path& path) {
   const std::string content = ReadFile(path);
   if (!LooksLikeCheckpoint(content)) {
     return ParseNetworkFile(content, path.string());
@@ -46,9 +61,24 @@ StoredNetwork ReadPolicy(const std::string& policy) {
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
   const std::optional<BestNetwork>& best = checkpoint.training.best;
   if (!best) {
-    throw UsageError(fmt::format("--policy: nothing was evaluated before the checkpoint {}", path.string()));
+    throw UsageError(fmt::format("nothing was evaluated before the checkpoint {}", path.string()));
   }
   return {checkpoint.experiment, best->evaluation.version, best->evaluation.updates, *best->parameters};
+}
+
+}  // namespace
+
+bool IsBuiltInPolicy(const std::string& policy) {
+  return policy == kAoiPolicy || policy == kDistancePolicy || policy == kOptimalPolicy;
+}
+
+StoredNetwork ReadPolicy(const std::string& policy) {
+  const std::filesystem::path path = PolicyFile(policy);
+  try {
+    return ReadPolicyFile(path);
+  } catch (const Error& error) {
+    RefusePolicy(error.what());
+  }
 }
 
 Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {

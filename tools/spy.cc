@@ -12,8 +12,8 @@
 #include "bus/bus.h"
 #include "bus/lcm_url.h"
 #include "core/error.h"
+#include "core/installation.h"
 #include "msgs/channels.h"
-#include "tools/installation.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -28,6 +28,8 @@ struct SpyOptions {
   bool print_table = false;
 };
 
+constexpr char kJavaPackages[] = "default-jre liblcm-java libjchart2d-java";
+
 /// A jar of a Debian package or of LCM's own installation.
 std::string SystemJar(const std::string& name) {
   for (const char* folder : {"/usr/share/java/", "/usr/local/share/java/"}) {
@@ -35,15 +37,27 @@ std::string SystemJar(const std::string& name) {
       return folder + name;
     }
   }
-  throw UsageError("spy: expected /usr/share/java/" + name +
-                   ", found none; install it: apt-get install default-jre liblcm-java libjchart2d-java");
+  throw UsageError(fmt::format("spy: expected /usr/share/java/{}, found none; install it: apt-get install {}",
+                               name, kJavaPackages));
+}
+
+/// A jar of Fresco's own.
+std::string OwnJar(const std::string& name) {
+  const std::filesystem::path path = SharedFolder() / name;
+  if (!std::filesystem::exists(path)) {
+    throw UsageError(
+        fmt::format("spy: expected {}, found none; in the source tree, tools/fresco spy installs a Java "
+                    "development kit and builds it; cmake --install then installs it",
+                    path.string()));
+  }
+  return path.string();
 }
 
 /// One class path for all: lcm-spy does not take a viewer of its table from another class loader than that of
 /// the messages.
 std::string ClassPath() {
   return fmt::format("{}:{}:{}:{}", SystemJar("lcm.jar"), SystemJar("jchart2d.jar"),
-                     SharedFile("fresco_types.jar"), SharedFile("fresco_spy.jar"));
+                     OwnJar("fresco_types.jar"), OwnJar("fresco_spy.jar"));
 }
 
 void RequireDisplay() {
@@ -85,7 +99,9 @@ std::vector<std::string> JavaCommand(const SpyOptions& options) {
 /// Becomes Java's process, so that signals and the exit status are lcm-spy's own.
 int Spy(SpyOptions options) {
   ChannelsWithPrefix(options.channel_prefix);
+  OpenLcmBus(options.lcm_url);  // Java's LCM would try it for ever
   RequireDisplay();
+  RequireProgram("java", "default-jre");
   if (options.open == std::vector<std::string>{"all"}) {
     options.open = kWindows;
   }
@@ -97,8 +113,7 @@ int Spy(SpyOptions options) {
   }
   arguments.push_back(nullptr);
   execvp(arguments[0], arguments.data());
-  throw UsageError(fmt::format("spy: java can't be run: {}; install it: apt-get install default-jre",
-                               std::strerror(errno)));
+  throw Failure(fmt::format("spy: java can't be run: {}", std::strerror(errno)));
 }
 
 }  // namespace
@@ -111,7 +126,7 @@ void AddSpy(CLI::App& app, Command& command) {
       ->capture_default_str();
   spy->add_option("--open", options->open, "Open these windows at once: flight,learner,actors, or all")
       ->delimiter(',')
-      ->check(CLI::IsMember({"flight", "learner", "actors", "all"}));
+      ->check(OneOf({"flight", "learner", "actors", "all"}));
   spy->add_flag("--print-table", options->print_table,
                 "Also print the table once a second: channel, type, messages received, undecodable");
   spy->callback([options, &command] { command = [options] { return Spy(*options); }; });

@@ -2,8 +2,9 @@
 // and runs when it is chosen; its result is the exit status.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+#include "core/command_line.h"
 
 namespace fresco {
 

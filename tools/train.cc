@@ -1,13 +1,16 @@
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 
 #include "bus/command_line.h"
+#include "core/command_line.h"
+#include "core/installation.h"
 #include "core/signals.h"
+#include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
-#include "tools/installation.h"
 #include "tools/live_line.h"
 #include "tools/new_run_folder.h"
 #include "tools/report/run_report.h"
@@ -19,7 +22,7 @@ namespace fresco {
 namespace {
 
 struct TrainOptions {
-  std::string config;
+  std::string config = kDefaultExperiment;
   std::vector<std::string> settings;
   std::optional<int> actors;
   std::optional<uint64_t> seed;
@@ -75,7 +78,7 @@ std::string Interruption(const std::filesystem::path& folder) {
              : "the learner ended the run; its log ends with:" + LastLines(folder / "learner.log", 2) + "\n";
 }
 
-/// Runs it and shows what came out.
+/// Starts the run, which was checked as a whole, minds it and shows what came out.
 int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOptions& options) {
   const bool text = options.format == "text";
   if (options.record) {
@@ -93,32 +96,34 @@ int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOpti
     fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ngo on with it: {}\n",
                Interruption(folder), folder.string(), run.ResumeCommand());
   } else if (text) {
-    fmt::print("\nlook at it: {}\nfly it:     tools/fresco evaluate --policy {}\n",
-               (folder / "report.html").string(), folder.string());
+    fmt::print("\nlook at it: {}\nfly it:     {} evaluate --policy {}\n", (folder / "report.html").string(),
+               ProgramName(), folder.string());
   }
   return status == 0 ? 0 : 1;
 }
 
 int TrainAnew(const TrainOptions& options) {
-  const Experiment experiment =
-      Experiment::Load(options.config.empty() ? DefaultConfigPath() : options.config, SettingsFrom(options));
+  const Experiment experiment = Experiment::Load(ExperimentPath(options.config), SettingsFrom(options));
   const std::filesystem::path folder =
       options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
+  TrainingRun run(experiment, folder, options.bus);
   if (options.format == "text") {
     Announce(experiment, folder);
   }
-  TrainingRun run(experiment, folder, options.bus);
   return Train(run, folder, options);
 }
 
 int GoOn(const TrainOptions& options) {
   const Resumption resumption = ReadInterruptedRun(options.resume, SettingsFrom(options));
+  TrainingRun run(resumption, options.resume, options.bus);
+  for (const UnusableCheckpoint& checkpoint : resumption.unusable) {  // the learner sets them aside
+    spdlog::warn("{}; going on from the checkpoint before", checkpoint.problem);
+  }
   if (options.format == "text") {
     fmt::print("going on after {} episodes; ",
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
-  TrainingRun run(resumption, options.resume, options.bus);
   return Train(run, options.resume, options);
 }
 
@@ -128,8 +133,7 @@ void AddTrain(CLI::App& app, Command& command) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* train =
       app.add_subcommand("train", "Train over LCM: one learner, several actors, and a table at the end");
-  CLI::Option* config =
-      train->add_option("--config", options->config, "Experiment; default: configs/quick.textproto");
+  CLI::Option* config = train->add_option("--config", options->config, ConfigHelp());
   train->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
   train->add_option("--actors", options->actors, "Local actor processes; 0: wait for actors that join")
       ->check(CLI::Range(0, 1024));
@@ -150,7 +154,7 @@ void AddTrain(CLI::App& app, Command& command) {
       ->needs(record)
       ->check(CLI::Range(0.001, 1e9));
   AddBusOptions(*train, options->bus);
-  train->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  train->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   train->callback([options, &command] {
     command = [options] { return options->resume.empty() ? TrainAnew(*options) : GoOn(*options); };
   });

@@ -9,9 +9,10 @@
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "core/identifier.h"
+#include "core/installation.h"
 #include "msgs/channels.h"
 #include "msgs/settings.h"
-#include "tools/installation.h"
+#include "tools/run_checks.h"
 
 namespace fresco {
 TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder,
@@ -29,9 +30,10 @@ TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path fol
       folder_(std::move(folder)),
       bus_options_(bus_options),
       use_(use),
-      run_id_(run_id),
-      bus_(OpenBus(experiment.run().lcm_url(), {bus_options.key_file})) {
-  PrepareFolder();
+      run_id_(run_id) {
+  CheckRun(experiment_);
+  CheckRunFolder(folder_, use_);
+  bus_ = OpenBus(experiment_.run().lcm_url(), {bus_options_.key_file});
   Listen();
 }
 
@@ -55,11 +57,11 @@ void TrainingRun::Listen() {
   bus_->Subscribe(channels.learner_status, take, kQueueCapacity);
 }
 
-void TrainingRun::Record(double split_mb) {
-  recorder_ = std::make_unique<RunRecorder>(folder_, experiment_.run().lcm_url(), split_mb);
-}
-
 void TrainingRun::Start() {
+  PrepareFolder();
+  if (record_split_mb_) {
+    recorder_ = std::make_unique<RunRecorder>(folder_, experiment_.run().lcm_url(), *record_split_mb_);
+  }
   learner_ = std::make_unique<ChildProcess>(LearnerArguments(), folder_ / "learner.log");
   heard_us_ = MonotonicMicroseconds();
   actors_.resize(static_cast<size_t>(experiment_.run().actors()));
@@ -140,9 +142,9 @@ std::string TrainingRun::Summary() const {
 }
 
 std::string TrainingRun::ResumeCommand() const {
-  return fmt::format("tools/fresco train --resume {}{}{}", folder_.string(),
+  return fmt::format("{} train --resume {}{}{}", ProgramName(), folder_.string(),
                      bus_options_.key_file ? " --key-file " + bus_options_.key_file->string() : "",
-                     recorder_ ? " --record" : "");
+                     record_split_mb_ ? " --record" : "");
 }
 
 std::vector<std::string> TrainingRun::LearnerArguments() {

@@ -22,18 +22,20 @@ namespace fresco {
 
 class TrainingRun {
  public:
-  /// A new run: opens the bus and makes the folder; throws UsageError where it holds another run.
-  /// `bus_options` go to every process, a disturbance with a seed of its own.
+  /// A new run in `folder`. Checks all that can be checked before it starts (tools/run_checks.h) and opens
+  /// the bus; nothing is written before Start. Throws UsageError. `bus_options` go to every process, a
+  /// disturbance with a seed of its own.
   TrainingRun(const Experiment& experiment, std::filesystem::path folder, const BusOptions& bus_options = {});
-  /// Goes on with the run in `folder`, read by ReadResumption.
+  /// Goes on with the run in `folder`, read by ReadResumption. The same holds.
   TrainingRun(const Resumption& resumption, std::filesystem::path folder, const BusOptions& bus_options = {});
   /// Ends every process that is still there.
   ~TrainingRun() = default;
 
-  /// Records the run's traffic from now on until End, in files of `split_mb` megabytes unless that is 0; to
-  /// be called before Start. Throws where it can't be recorded.
-  void Record(double split_mb);
+  /// Has Start record the run's traffic until End, in files of `split_mb` megabytes unless that is 0.
+  void Record(double split_mb) { record_split_mb_ = split_mb; }
 
+  /// Makes the folder and starts recorder and learner. Throws if the folder can't be made, or the traffic not
+  /// be recorded.
   void Start();
 
   /// Waits for a status, at most `timeout_us`, and starts again what has died. Returns whether the
@@ -95,6 +97,7 @@ class TrainingRun {
   BusOptions bus_options_;
   RunFolder::Use use_;
   int64_t run_id_;
+  std::optional<double> record_split_mb_;  // none: nothing is recorded
   std::unique_ptr<Bus> bus_;
   std::optional<learner_status_t> status_;
   int64_t heard_us_ = 0;                   // the learner's last status, or its start

@@ -18,7 +18,7 @@ const char* OutcomeName(Outcome outcome) {
     case Outcome::kOutOfEnergy:
       return "out of energy";
   }
-  CheckFailed(__FILE__, __LINE__, "an outcome of 0 to 3");
+  CheckFailed(__FILE_NAME__, __LINE__, "an outcome of 0 to 3");
 }
 
 Environment::Environment(const World& world) : world_(&world) {

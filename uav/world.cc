@@ -46,7 +46,7 @@ const char* MoveName(Move move) {
     case Move::kHover:
       return "hover";
   }
-  CheckFailed(__FILE__, __LINE__, "a move of 0 to 4");
+  CheckFailed(__FILE_NAME__, __LINE__, "a move of 0 to 4");
 }
 
 World::World(Scenario scenario) : scenario_(Checked(std::move(scenario))) {

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import unittest
 
-from fresco_process import CI_CONFIG, FrescoTest, read_log, url, wait_until
+from fresco_process import BIN, CI_CONFIG, FrescoTest, read_log, url, wait_until
 
 TAG_BYTES = 32
 
@@ -77,7 +77,8 @@ class Authentication(FrescoTest):
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=30)
         self.assertEqual(process.returncode, 1, errors)
-        command = errors.split("go on with it: tools/fresco ")[1].split()
+        program, *command = errors.split("go on with it: ")[1].split()
+        self.assertEqual(program, str(BIN / "fresco"))  # as it was called
         self.assertIn("--key-file", command)
         output, _ = self.run_fresco(*command, "--format", "json")
         self.assertEqual(json.loads(output)["weights_crc32c"], whole["weights_crc32c"])

@@ -89,11 +89,14 @@ class Figures(FrescoTest):
         page = (self.folder / "study" / "report.html").read_text()
         for word in ("Effect of the coverage radius", "exact optimum", "distance-based"):
             self.assertIn(word, page)
-        # The figures are made again from the complete runs; without gnuplot all the numbers are.
+        # The figures are made again from the complete runs; where gnuplot fails all the numbers are.
         for path in (self.folder / "study").glob("*.*"):
             path.unlink()
-        _, errors = self.figures(17331, expect=1, env={**os.environ, "PATH": "/nowhere"})
-        self.assertIn("gnuplot-nox", errors)
+        gnuplot = self.folder / "gnuplot"
+        gnuplot.write_text("#!/bin/sh\necho out of ink >&2\nexit 1\n")
+        gnuplot.chmod(0o700)
+        _, errors = self.figures(17331, expect=1, env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
+        self.assertIn("out of ink", errors)
         self.check_runs()
         self.assertTrue((self.folder / "study" / "report.html").exists())
 

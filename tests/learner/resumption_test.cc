@@ -41,9 +41,11 @@ class ResumptionTest : public ::testing::Test {
     WriteFileAtomically(path, content);
     return path;
   }
-  /// The orders committed at the checkpoint that a resumption takes.
+  /// Goes on as a learner does; returns the orders committed at the checkpoint.
   int64_t Taken() const {
-    return ReadResumption(directory_, {}).checkpoint->training.progress.committed_orders;
+    const Resumption resumption = ReadResumption(directory_, {});
+    SetAside(resumption.unusable);
+    return resumption.checkpoint->training.progress.committed_orders;
   }
   std::string Refusal(const Settings& settings = {}) const {
     try {
@@ -115,6 +117,29 @@ TEST_F(ResumptionTest, SetsAsideWhatItCantReadToo) {
   std::filesystem::create_directory(checkpoints_.PathFor(2));
   EXPECT_EQ(Taken(), 1);
   EXPECT_EQ(checkpoints_.Latest(), std::vector<Path>{taken});
+}
+
+TEST_F(ResumptionTest, ChangesNothingInTheFolderUntilTheRunGoesOn) {
+  Write(NextCheckpoint());
+  const Path torn = Write(NextCheckpoint().substr(0, 1000));
+  const Resumption resumption = ReadResumption(directory_, {});
+  ASSERT_EQ(resumption.unusable.size(), 1u);
+  EXPECT_EQ(resumption.unusable.front().path, torn);
+  EXPECT_NE(resumption.unusable.front().problem.find("cut short"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(torn));
+}
+
+TEST_F(ResumptionTest, NamesTheNewestRunInAFolderOfRuns) {
+  const Path runs = directory_ / "runs";
+  for (const std::string name : {"early", "late"}) {
+    RunFolder folder(runs / name, run_.experiment);
+  }
+  const auto late = std::filesystem::last_write_time(runs / "late" / "config.textproto");
+  std::filesystem::last_write_time(runs / "early" / "config.textproto", late - std::chrono::seconds(1));
+  std::filesystem::create_directory(runs / "no-run");
+  EXPECT_EQ(NewestRunHint(runs, "config.textproto"), "; the newest run in it is " + (runs / "late").string());
+  EXPECT_EQ(NewestRunHint(runs, "best.network"), "");
+  EXPECT_EQ(NewestRunHint(runs / "nowhere", "config.textproto"), "");
 }
 
 TEST_F(ResumptionTest, LeavesFilesOfOtherNamesAlone) {

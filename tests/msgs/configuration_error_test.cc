@@ -19,8 +19,11 @@ std::string ErrorOf(const std::string& text) {
 }
 
 TEST(ConfigurationError, NamesLineAndColumnOfAnUnknownField) {
-  EXPECT_THAT(ErrorOf("agent {\n  bach_size: 3\n}"),
-              AllOf(StartsWith("my.textproto:2:"), HasSubstr("bach_size")));
+  EXPECT_THAT(
+      ErrorOf("agent {\n  bach_size: 3\n}"),
+      AllOf(StartsWith("my.textproto:2:"), HasSubstr("bach_size"), HasSubstr("did you mean batch_size?")));
+  EXPECT_THAT(ErrorOf("scenary {}"), HasSubstr("did you mean scenario?"));
+  EXPECT_THAT(ErrorOf("agent { " + std::string(1'000'000, 'x') + ": 1 }"), HasSubstr("xxx"));
   EXPECT_THAT(ErrorOf("agent {\n"), StartsWith("my.textproto:2:1: "));
   EXPECT_THAT(ErrorOf("schedule { seed: \"a\" }"), StartsWith("my.textproto:1:18: "));
 }

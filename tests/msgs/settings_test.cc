@@ -12,6 +12,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::Pair;
 
 constexpr char kTwoSensors[] = "scenario { sensor { x_m: 1 y_m: 2 } sensor { x_m: 3 y_m: 4 } }";
@@ -102,6 +103,21 @@ TEST(Settings, NameAnUnknownFieldAndTheKnownOnes) {
               AllOf(HasSubstr("nothing"), HasSubstr("scenario, agent, schedule, run")));
   EXPECT_THAT(ErrorOfSetting("agent..x=3"), HasSubstr("--set agent..x"));
   EXPECT_THAT(ErrorOfSetting("schedule.seed.x=3"), HasSubstr("--set schedule.seed.x"));
+}
+
+TEST(Settings, NameTheNearestField) {
+  const std::pair<const char*, const char*> kSlips[] = {{"agnet.hidden_layers=3", "agent.hidden_layers"},
+                                                        {"agent.bach_size=3", "agent.batch_size"},
+                                                        {"batch_size=3", "agent.batch_size"},
+                                                        {"seed=3", "schedule.seed"},
+                                                        {"schedule.hidden_layers=3", "agent.hidden_layers"},
+                                                        {"agent.linear.inital=3", "agent.linear.initial"}};
+  for (const auto& [given, meant] : kSlips) {
+    EXPECT_THAT(ErrorWith(given), HasSubstr(std::string("; did you mean ") + meant + "?")) << given;
+  }
+  EXPECT_THAT(ErrorWith("scenario.sensor[0].wieght=3", kTwoSensors),
+              HasSubstr("did you mean scenario.sensor[0].weight?"));
+  EXPECT_THAT(ErrorWith("nothing=3"), Not(HasSubstr("did you mean")));
 }
 
 TEST(Settings, NameTheValueThatIsNotOneOfTheField) {

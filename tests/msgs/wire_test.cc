@@ -105,9 +105,9 @@ Bytes WithRightCrc(Bytes encoding) {
 }
 
 TEST(Wire, RefusesAbsurdCountsBeforeAnythingIsAllocated) {
-  constexpr size_t kFirstCount = 8 + 3 * 8;  // behind fingerprint, utime, run_id, config_hash
+  constexpr size_t kCountsBegin = 8 + 3 * 8;  // behind fingerprint, utime, run_id, config_hash
   const Bytes bytes = Encoded(FullActorStatus());
-  for (const size_t offset : {kFirstCount, kFirstCount + 4}) {
+  for (const size_t offset : {kCountsBegin, kCountsBegin + 4}) {
     for (const uint32_t count :
          {0xFFFFFFFFu, 500'000'000u, static_cast<uint32_t>(kMaximumHeldVersions) + 1, 0x80000000u}) {
       Bytes changed(bytes.begin(), bytes.end() - 4);

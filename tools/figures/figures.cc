@@ -8,9 +8,11 @@
 
 #include "bus/command_line.h"
 #include "core/error.h"
+#include "core/installation.h"
+#include "core/output_folder.h"
+#include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
 #include "tools/figures/figure_writer.h"
-#include "tools/installation.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -50,16 +52,17 @@ Experiment BaseExperiment(const FiguresOptions& options) {
   if (!options.lcm_url.empty()) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
-  const std::string config = options.config.empty()
-                                 ? ConfigPath(options.quick ? "ci.textproto" : "quick.textproto")
-                                 : options.config;
-  return Experiment::Load(config, settings);
+  const std::string usual = options.quick ? "ci" : kDefaultExperiment;
+  return Experiment::Load(ExperimentPath(options.config.empty() ? usual : options.config), settings);
 }
 
 int WriteFigures(const FiguresOptions& options) {
   const Experiment base = BaseExperiment(options);
   const PaperStudy study = MakePaperStudy(base, ScopeOf(options));
   const Path folder(options.out);
+  CheckOutputFolder(folder);
+  CheckOutputFolder(folder / "runs");
+  RequireProgram("gnuplot", "gnuplot-nox");
   const std::vector<StudyResult> results =
       RunStudy(study.jobs, {folder / "runs", options.parallel, options.bus});
   const WrittenFigures written = WriteStudyFigures(folder, base, study, results);
@@ -82,7 +85,7 @@ void AddFigures(CLI::App& app, Command& command) {
   figures->add_option("--out", options->out, "Folder for figures and runs; goes on where it was stopped")
       ->required();
   figures->add_option("--config", options->config,
-                      "Field, agent and schedule; default: quick.textproto (--quick: ci.textproto)");
+                      ConfigHelp(std::string(kDefaultExperiment) + "; with --quick: ci"));
   figures->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
   figures->add_option("--deployments", options->deployments, "Random deployments a point; default: 3")
       ->check(CLI::Range(1, 1000));

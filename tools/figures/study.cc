@@ -12,6 +12,7 @@
 #include "core/signals.h"
 #include "tools/figures/study_folder.h"
 #include "tools/live_line.h"
+#include "tools/run_checks.h"
 #include "tools/training_run.h"
 
 namespace fresco {
@@ -27,6 +28,7 @@ class Study {
       if (const auto result = CompleteResult(FolderOf(job), jobs_[job])) {
         results_[job] = *result;
       } else {
+        CheckJob(job);
         waiting_.push_back(job);
       }
     }
@@ -60,6 +62,16 @@ class Study {
     size_t job;
     std::unique_ptr<TrainingRun> run;
   };
+
+  /// All jobs are checked before the first is started: the last of them may begin an hour later.
+  void CheckJob(size_t job) const {
+    InterruptedRun(FolderOf(job), jobs_[job]);
+    if (waiting_.empty()) {  // the bus of one is that of all
+      CheckRunAndBus(jobs_[job].experiment, options_.bus);
+    } else {
+      CheckRun(jobs_[job].experiment);
+    }
+  }
 
   Path FolderOf(size_t job) const { return options_.folder / jobs_[job].name; }
 

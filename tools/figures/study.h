@@ -40,10 +40,11 @@ struct StudyOptions {
   BusOptions bus = {};           ///< of every run
 };
 
-/// Runs what has no complete summary yet, from its latest checkpoint where it was interrupted, and returns
-/// the results, in the order of the jobs. Shows how far it is and how long it will take on standard error.
-/// Throws UsageError where a folder holds a run of another configuration or none of its checkpoints can be
-/// read, and Failure where a run fails or the program is asked to stop.
+/// Checks every run before it starts the first. Runs what has no complete summary yet, from its latest
+/// checkpoint where it was interrupted, and returns the results, in the order of the jobs. Shows how far it
+/// is and how long it will take on standard error. Throws UsageError where a folder holds a run of another
+/// configuration or none of its checkpoints can be read, and Failure where a run fails or the program is
+/// asked to stop.
 std::vector<StudyResult> RunStudy(const std::vector<StudyJob>& jobs, const StudyOptions& options);
 
 }  // namespace fresco

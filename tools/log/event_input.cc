@@ -6,7 +6,6 @@
 #include "core/error.h"
 #include "core/signals.h"
 #include "tools/live_line.h"
-#include "tools/log/event_source.h"
 
 namespace fresco {
 
@@ -27,30 +26,32 @@ void AddEventInput(CLI::App& app, EventInputOptions& options) {
                  "No Fresco message of another run than this (run_id of summary.json)");
 }
 
-MergedEventLogs::Totals ForEachEvent(const EventInputOptions& options,
-                                     const std::function<void(const LcmEvent& event)>& handle) {
+EventInput::EventInput(const EventInputOptions& options)
+    : is_live_(IsLcmUrl(options.sources.front())),
+      selection_(options.selection),
+      source_(OpenEvents(options.sources, options.seconds)) {}
+
+MergedEventLogs::Totals EventInput::ForEach(const std::function<void(const LcmEvent& event)>& handle) {
   constexpr int64_t kEventsPerLook = 4096;
   constexpr int64_t kQuietUs = 1'000'000;  // what is done by then needs no line
-  EventSelection selection(options.selection);
-  const auto source = OpenEvents(options.sources, options.seconds);
   const int64_t line_from_us = MonotonicMicroseconds() + kQuietUs;
-  LiveLine line(!IsLcmUrl(options.sources.front()));
+  LiveLine line(!is_live_);
   int64_t events = 0;
-  while (const auto event = source->Next()) {
-    if (selection.Wants(*event)) {
+  while (const auto event = source_->Next()) {
+    if (selection_.Wants(*event)) {
       handle(*event);
     }
     if (++events % kEventsPerLook == 0 && MonotonicMicroseconds() > line_from_us) {
       line.Show(fmt::format("read {} events, {:.1f} MB", events,
-                            1e-6 * static_cast<double>(source->totals().bytes)));
+                            1e-6 * static_cast<double>(source_->totals().bytes)));
     }
   }
   line.Finish();
-  if (StopSignal::Requested() && !IsLcmUrl(options.sources.front())) {
+  if (StopSignal::Requested() && !is_live_) {
     throw Failure("interrupted before the end of the logs");
   }
-  source->WarnOfLosses();
-  return source->totals();
+  source_->WarnOfLosses();
+  return source_->totals();
 }
 
 }  // namespace fresco

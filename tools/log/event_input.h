@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bus/lcm_event.h"
 #include "bus/merged_event_logs.h"
 #include "tools/log/event_selection.h"
+#include "tools/log/event_source.h"
 
 namespace fresco {
 
@@ -21,10 +23,22 @@ struct EventInputOptions {
 /// Adds LOG..., --seconds, --channel, --drop, --start, --stop and --run; `options` must outlive the parsing.
 void AddEventInput(CLI::App& app, EventInputOptions& options);
 
-/// Calls `handle` for every event that is wanted, in order, and shows on standard error how far it is; says
-/// there at the end what was damaged, cut or lost. Throws UsageError where a source can't be opened, Failure
-/// where the program is interrupted while it reads logs.
-MergedEventLogs::Totals ForEachEvent(const EventInputOptions& options,
-                                     const std::function<void(const LcmEvent& event)>& handle);
+/// One pass through the events. Belongs to one thread.
+class EventInput {
+ public:
+  /// Checks the options and opens the sources, so that a subcommand makes its output only after that. Throws
+  /// UsageError.
+  explicit EventInput(const EventInputOptions& options);
+
+  /// Calls `handle` for every event that is wanted, in order, and shows on standard error how far it is; says
+  /// there at the end what was damaged, cut or lost. Throws Failure if the program is interrupted while it
+  /// reads logs.
+  MergedEventLogs::Totals ForEach(const std::function<void(const LcmEvent& event)>& handle);
+
+ private:
+  bool is_live_;
+  EventSelection selection_;
+  std::unique_ptr<EventSource> source_;
+};
 
 }  // namespace fresco

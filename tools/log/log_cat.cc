@@ -13,7 +13,7 @@ int Cat(const EventInputOptions& options) {
   TextOutput output;
   MessageDecoder decoder;
   const bool live = IsLcmUrl(options.sources.front());
-  ForEachEvent(options, [&](const LcmEvent& event) {
+  EventInput(options).ForEach([&](const LcmEvent& event) {
     output.Write(EventJson(event, decoder) + "\n");
     if (live) {
       output.Flush();

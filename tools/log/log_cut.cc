@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
 #include "bus/event_log_writer.h"
 #include "tools/log/event_input.h"
@@ -17,21 +16,12 @@ struct CutOptions {
 };
 
 int Cut(const CutOptions& options) {
-  // Opened with the first event: sources and options are looked at before.
-  std::optional<EventLogWriter> writer;
-  const auto open = [&] { writer.emplace(options.out, static_cast<int64_t>(1e6 * options.split_mb)); };
-  ForEachEvent(options.input, [&](const LcmEvent& event) {
-    if (!writer) {
-      open();
-    }
-    writer->Write(event);
-  });
-  if (!writer) {
-    open();
-  }
-  writer->Flush();
-  fmt::print("{}: {} events, {:.1f} MB\n", options.out, writer->events(),
-             1e-6 * static_cast<double>(writer->bytes()));
+  EventInput input(options.input);  // before the new log is made
+  EventLogWriter writer(options.out, static_cast<int64_t>(1e6 * options.split_mb));
+  input.ForEach([&](const LcmEvent& event) { writer.Write(event); });
+  writer.Flush();
+  fmt::print("{}: {} events, {:.1f} MB\n", options.out, writer.events(),
+             1e-6 * static_cast<double>(writer.bytes()));
   return 0;
 }
 

@@ -55,10 +55,11 @@ class Exporter {
 };
 
 int Export(const ExportOptions& options) {
+  EventInput input(options.input);  // before the table is written over
   TextOutput output(options.out);
   RowWriter writer(output, options.format == "csv" ? RowWriter::Format::kCsv : RowWriter::Format::kJsonLines);
   Exporter exporter(options.what, writer);
-  ForEachEvent(options.input, [&](const LcmEvent& event) { exporter.Take(event); });
+  input.ForEach([&](const LcmEvent& event) { exporter.Take(event); });
   output.Flush();
   if (exporter.damaged() > 0) {
     spdlog::warn("{} messages are damaged and were left out", exporter.damaged());
@@ -77,10 +78,10 @@ void AddLogExport(CLI::App& log, Command& command) {
   AddEventInput(*app, options->input);
   app->add_option("--what", options->what, "transitions, actor-statuses or learner-statuses")
       ->capture_default_str()
-      ->check(CLI::IsMember({"transitions", "actor-statuses", "learner-statuses"}));
+      ->check(OneOf({"transitions", "actor-statuses", "learner-statuses"}));
   app->add_option("--format", options->format, "csv or jsonl")
       ->capture_default_str()
-      ->check(CLI::IsMember({"csv", "jsonl"}));
+      ->check(OneOf({"csv", "jsonl"}));
   app->add_option("--out", options->out, "The table's file; default: standard output");
   app->callback([options, &command] { command = [options] { return Export(*options); }; });
 }

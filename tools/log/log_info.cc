@@ -17,7 +17,7 @@ struct InfoOptions {
 
 int Info(const InfoOptions& options) {
   LogSummary summary;
-  const auto totals = ForEachEvent(options.input, [&](const LcmEvent& event) { summary.Take(event); });
+  const auto totals = EventInput(options.input).ForEach([&](const LcmEvent& event) { summary.Take(event); });
   fmt::print("{}", options.format == "json" ? LogSummaryJson(summary, totals) + "\n"
                                             : LogSummaryText(summary, totals));
   std::fflush(stdout);
@@ -31,7 +31,7 @@ void AddLogInfo(CLI::App& log, Command& command) {
   CLI::App* info =
       log.add_subcommand("info", "Say what stands in logs: channels, runs, actors, gaps, damage");
   AddEventInput(*info, options->input);
-  info->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  info->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   info->callback([options, &command] { command = [options] { return Info(*options); }; });
 }
 

@@ -47,7 +47,7 @@ void RowWriter::WriteCsvRow(const NamedRow& row) {
     throw Failure(
         fmt::format("row {} has {} columns, the table has {}: the logs hold runs of different scenarios; "
                     "export one of them "
-                    "(--run ID, see tools/fresco log info) or use --format jsonl",
+                    "(--run ID, see fresco log info) or use --format jsonl",
                     rows_ + 1, row.size(), header_.size()));
   }
   std::vector<CsvCell> cells;

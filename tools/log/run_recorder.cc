@@ -9,7 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
-#include "tools/installation.h"
+#include "core/installation.h"
 
 namespace fresco {
 namespace {
@@ -117,9 +117,10 @@ std::string RunRecorder::Report() const {
     logs += fmt::format(" {}", path.string());
   }
   if (has_failed_) {
-    return fmt::format("the recording is INCOMPLETE ({}); look into it: tools/fresco log info{}", last, logs);
+    return fmt::format("the recording is INCOMPLETE ({}); look into it: {} log info{}", last, ProgramName(),
+                       logs);
   }
-  return fmt::format("{}; retrain: tools/fresco retrain{} --config {}", last, logs,
+  return fmt::format("{}; retrain: {} retrain{} --config {}", last, ProgramName(), logs,
                      (folder_ / "config.textproto").string());
 }
 

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "bus/command_line.h"
 #include "core/error.h"
+#include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
 #include "tools/new_run_folder.h"
 #include "tools/report/run_report.h"
@@ -63,7 +65,7 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
   const Experiment chosen =
       options.config.empty()
           ? Experiment::Parse(*run.config_text, "the recorded configuration", SettingsFrom(options))
-          : Experiment::Load(options.config, SettingsFrom(options));
+          : Experiment::Load(ExperimentPath(options.config), SettingsFrom(options));
   if (chosen.hash() == run.identity.config_hash) {
     ExpectOrdersOfThisRelease(run);
     return {recorded, chosen, Retraining::Use::kSameRun};
@@ -87,6 +89,9 @@ void WarnOfOtherArithmetic(const LoggedRun& run) {
 }
 
 int Retrain(const RetrainOptions& options) {
+  const std::filesystem::path folder =
+      options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
+  RunFolder::CheckNew(folder);  // before the logs are read, which may take minutes
   LogSource source{{options.logs.begin(), options.logs.end()}};
   if (options.key_file) {
     source.key = ReadAuthenticationKey(*options.key_file);
@@ -97,8 +102,6 @@ int Retrain(const RetrainOptions& options) {
   RetrainRun retrain_run(source, run, experiments.recorded ? *experiments.recorded : experiments.chosen,
                          experiments.chosen, experiments.use, options.strict);
   const bool text = options.format == "text";
-  const std::filesystem::path folder =
-      options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
   if (text) {
     fmt::print("{}results go to {}\n", BeginText(retrain_run.report()), folder.string());
     std::fflush(stdout);
@@ -118,18 +121,16 @@ void AddRetrain(CLI::App& app, Command& command) {
       "retrain",
       "Train from recorded LCM logs: the same weights again, or another agent on the same experience");
   retrain->add_option("log", options->logs, "Event logs of one run, in any order")->required();
-  retrain->add_option("--config", options->config, "Experiment; default: the recorded one");
+  retrain->add_option("--config", options->config, ConfigHelp("the recorded one"));
   retrain->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
   retrain->add_option("--seed", options->seed, "Seed of everything random but the recorded flights");
   retrain->add_option("--run", options->run,
                       "Which run of the log (16 hexadecimal digits); default: the only one");
-  retrain->add_option_function<std::string>(
-      "--key-file", [options = options.get()](const std::string& file) { options->key_file = file; },
-      "The run's key: take only messages that are authenticated with it");
+  AddKeyFileOption(*retrain, options->key_file);
   retrain->add_flag("--strict", options->strict,
                     "An episode that the log misses is an error, not flown again");
   retrain->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
-  retrain->add_option("--format", options->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  retrain->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   retrain->callback([options, &command] { command = [options] { return Retrain(*options); }; });
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <utility>
 
 #include "core/clock.h"
@@ -44,7 +43,6 @@ RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Expe
                        const Experiment& chosen, Retraining::Use use, bool strict)
     : experiment_(chosen),
       world_(chosen.scenario()),
-      strict_(strict),
       report_{source.paths, run, use},
       episodes_(source, run.identity, world_, recorded.mask_options()) {
   report_.missing = episodes_.Missing();
@@ -55,49 +53,51 @@ RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Expe
         "--strict: the log misses the episodes of orders {}; without --strict they are flown again",
         RangesText(report_.missing)));
   }
+  retraining_.emplace(
+      experiment_, world_, episodes_, use, strict,
+      [this](const Trainer& trainer, const Evaluation& evaluation) { TakeEvaluation(trainer, evaluation); });
+}
+
+void RetrainRun::TakeEvaluation(const Trainer& trainer, const Evaluation& evaluation) {
+  folder_->AddMetrics(evaluation, trainer.progress(), SecondsSince(begin_us_));
+  if (trainer.best()->evaluation.version == evaluation.version) {
+    folder_->WriteBest(*trainer.best());
+  }
 }
 
 std::string RetrainRun::Train(const std::filesystem::path& directory) {
-  std::optional<RunFolder> folder;
-  const int64_t begin_us = MonotonicMicroseconds();
-  // Before the folder: a log that is of no use leaves nothing behind.
-  Retraining retraining(experiment_, world_, episodes_, report_.use, strict_,
-                        [&](const Trainer& trainer, const Evaluation& evaluation) {
-                          folder->AddMetrics(evaluation, trainer.progress(), SecondsSince(begin_us));
-                          if (trainer.best()->evaluation.version == evaluation.version) {
-                            folder->WriteBest(*trainer.best());
-                          }
-                        });
+  begin_us_ = MonotonicMicroseconds();
   RunFolder::Make(directory);
   const FolderLock lock(directory);
-  folder.emplace(directory, experiment_);
+  folder_.emplace(directory, experiment_);
   OptimumSearch optimum(world_, {experiment_.run().optimum_limit_s(),
                                  int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
   LiveLine line(true);
-  while (!StopSignal::Requested() && retraining.Step()) {
-    line.Show(ProgressText(retraining.trainer(), experiment_.schedule().episodes(), SecondsSince(begin_us)));
+  while (!StopSignal::Requested() && retraining_->Step()) {
+    line.Show(
+        ProgressText(retraining_->trainer(), experiment_.schedule().episodes(), SecondsSince(begin_us_)));
   }
-  const double wall_s = SecondsSince(begin_us);
-  completed_ = retraining.trainer().finished();
+  const double wall_s = SecondsSince(begin_us_);
+  completed_ = retraining_->trainer().finished();
   if (completed_) {
     WaitForEnd(optimum, line);
   }
   optimum.Stop();
-  report_.counts = retraining.counts();
-  return Results(retraining.trainer(), wall_s, optimum.plan(), *folder);
+  report_.counts = retraining_->counts();
+  return Results(wall_s, optimum.plan());
 }
 
-std::string RetrainRun::Results(const Trainer& trainer, double wall_s, std::shared_ptr<const Plan> plan,
-                                RunFolder& folder) {
+std::string RetrainRun::Results(double wall_s, std::shared_ptr<const Plan> plan) {
+  const Trainer& trainer = retraining_->trainer();
   if (plan != nullptr) {
-    folder.WriteOptimum(OptimumJson(world_, *plan));
+    folder_->WriteOptimum(OptimumJson(world_, *plan));
   }
-  folder.WriteFinal(trainer.current(), trainer.progress());
-  folder.Finish();
+  folder_->WriteFinal(trainer.current(), trainer.progress());
+  folder_->Finish();
   const std::string summary = WithRetrainReport(
       SummaryJson({experiment_, world_, DrawIdentifier(), completed_, wall_s, trainer, {}, std::move(plan)}),
       report_);
-  folder.WriteSummary(summary);
+  folder_->WriteSummary(summary);
   return summary;
 }
 

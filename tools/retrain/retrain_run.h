@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "learner/run_folder.h"
@@ -16,28 +17,32 @@ namespace fresco {
 
 class RetrainRun {
  public:
-  /// Reads through the logs. Throws UsageError where they can't be read, Failure where they miss an episode
-  /// and `strict` is set.
+  /// Reads through the logs; nothing is written before Train. Throws UsageError if they can't be read or hold
+  /// too little experience, Failure if they miss an episode and `strict` is set.
   RetrainRun(const LogSource& source, const LoggedRun& run, const Experiment& recorded,
              const Experiment& chosen, Retraining::Use use, bool strict);
+  RetrainRun(const RetrainRun&) = delete;
+  RetrainRun& operator=(const RetrainRun&) = delete;
 
-  /// Trains, and writes the results into a new folder, as `train` does. Returns the summary's JSON with the
-  /// report in it. Ends early, with what it has, where the program is asked to stop. Throws UsageError where
-  /// the folder holds another run or the experience is too short, Failure where it runs out.
+  /// Trains, and writes the results into a new folder, as `train` does; to be called once. Returns the
+  /// summary's JSON with the report in it. Ends early, with what it has, if the program is asked to stop.
+  /// Throws UsageError if the folder holds another run, Failure if the experience runs out.
   std::string Train(const std::filesystem::path& directory);
 
   const RetrainReport& report() const { return report_; }
   bool completed() const { return completed_; }
 
  private:
-  std::string Results(const Trainer& trainer, double wall_s, std::shared_ptr<const Plan> plan,
-                      RunFolder& folder);
+  void TakeEvaluation(const Trainer& trainer, const Evaluation& evaluation);
+  std::string Results(double wall_s, std::shared_ptr<const Plan> plan);
 
   Experiment experiment_;
   World world_;
-  bool strict_;
   RetrainReport report_;
   LoggedEpisodes episodes_;
+  std::optional<Retraining> retraining_;
+  std::optional<RunFolder> folder_;  // from Train on
+  int64_t begin_us_ = 0;             // of Train
   bool completed_ = false;
 };
 

@@ -7,8 +7,10 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/output_folder.h"
 #include "core/signals.h"
 #include "tools/live_line.h"
+#include "tools/run_checks.h"
 #include "tools/soak/soak_options.h"
 #include "tools/soak/soak_report.h"
 #include "tools/soak/soak_round.h"
@@ -31,9 +33,8 @@ class Soak {
       throw UsageError(fmt::format("--out: {} is not empty; name a new folder for this soak's runs",
                                    report_.folder.string()));
     }
-    if (options.key_file) {
-      ReadAuthenticationKey(*options.key_file);  // a bad one is wrong use, not a round that failed
-    }
+    CheckOutputFolder(report_.folder);
+    CheckRunAndBus(experiment_, {options.key_file});  // what is wrong here is wrong use, no round that failed
   }
 
   SoakReport Run() {

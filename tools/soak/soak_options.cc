@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "bus/command_line.h"
+#include "core/command_line.h"
 #include "core/error.h"
+#include "core/installation.h"
+#include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
-#include "tools/installation.h"
 
 namespace fresco {
 namespace {
@@ -20,8 +22,7 @@ void AddSoakOptions(CLI::App& soak, SoakOptions& options) {
   soak.add_option("--minutes", options.minutes, "For so long; at least one round is run whatever it takes")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e5));
-  soak.add_option("--config", options.config,
-                  "Experiment; default: configs/ci.textproto with 2,000 episodes");
+  soak.add_option("--config", options.config, ConfigHelp("ci with 2,000 episodes"));
   soak.add_option("--set", options.settings, "Override one field: path=value; may be repeated");
   soak.add_option("--actors", options.actors, "Local actor processes")->check(CLI::Range(1, 1024));
   soak.add_option("--seed", options.seed, "Of the faults")->capture_default_str();
@@ -39,7 +40,7 @@ void AddSoakOptions(CLI::App& soak, SoakOptions& options) {
           "itself may grow by twice as much over its rounds")
       ->capture_default_str()
       ->check(CLI::Range(0, 1 << 20));
-  soak.add_option("--format", options.format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  soak.add_option("--format", options.format, "text or json")->check(OneOf({"text", "json"}));
 }
 
 Experiment SoakExperiment(const SoakOptions& options) {
@@ -56,7 +57,7 @@ Experiment SoakExperiment(const SoakOptions& options) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
   Experiment experiment =
-      Experiment::Load(options.config.empty() ? ConfigPath("ci.textproto") : options.config, settings);
+      Experiment::Load(ExperimentPath(options.config.empty() ? "ci" : options.config), settings);
   if (experiment.run().actors() < 1) {
     throw UsageError("run.actors: a soak kills and stops its own actors; expected at least 1, found 0");
   }
@@ -65,7 +66,7 @@ Experiment SoakExperiment(const SoakOptions& options) {
 
 std::string RepeatCommand(const SoakOptions& options, int round) {
   std::string command =
-      fmt::format("tools/fresco soak --seed {} --first-round {} --rounds 1", options.seed, round);
+      fmt::format("{} soak --seed {} --first-round {} --rounds 1", ProgramName(), options.seed, round);
   if (!options.config.empty()) {
     command += " --config " + Quoted(options.config);
   }

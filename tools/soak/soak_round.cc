@@ -9,8 +9,8 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/installation.h"
 #include "core/signals.h"
-#include "tools/installation.h"
 
 namespace fresco {
 namespace {
