@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::filesystem::path kConfigs = std::filesystem::path(FRESCO_SOURCE_DIR) / "configs";
+const std::filesystem::path kReadyFolder = std::filesystem::path(FRESCO_SOURCE_DIR) / "configs";
 
 /// In a folder without any file, as somebody is who uses an installation.
 class ReadyExperimentsTest : public ::testing::Test {
@@ -42,7 +42,7 @@ TEST_F(ReadyExperimentsTest, AreThoseOfTheSourceTree) {
 }
 
 TEST_F(ReadyExperimentsTest, AreFoundByNameFromEveryFolder) {
-  const std::string text = ReadFile(kConfigs / "paper.textproto");
+  const std::string text = ReadFile(kReadyFolder / "paper.textproto");
   for (const std::string config : {"paper", "paper.textproto", "configs/paper.textproto", "configs/paper"}) {
     EXPECT_EQ(ReadFile(ExperimentPath(config)), text) << config;
   }

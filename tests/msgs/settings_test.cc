@@ -113,11 +113,11 @@ TEST(Settings, NameTheNearestField) {
                                                         {"schedule.hidden_layers=3", "agent.hidden_layers"},
                                                         {"agent.linear.inital=3", "agent.linear.initial"}};
   for (const auto& [given, meant] : kSlips) {
-    EXPECT_THAT(ErrorWith(given), HasSubstr(std::string("; did you mean ") + meant + "?")) << given;
+    EXPECT_THAT(ErrorOfSetting(given), HasSubstr(std::string("; did you mean ") + meant + "?")) << given;
   }
-  EXPECT_THAT(ErrorWith("scenario.sensor[0].wieght=3", kTwoSensors),
+  EXPECT_THAT(ErrorOfSetting("scenario.sensor[0].wieght=3", kTwoSensors),
               HasSubstr("did you mean scenario.sensor[0].weight?"));
-  EXPECT_THAT(ErrorWith("nothing=3"), Not(HasSubstr("did you mean")));
+  EXPECT_THAT(ErrorOfSetting("nothing=3"), Not(HasSubstr("did you mean")));
 }
 
 TEST(Settings, NameTheValueThatIsNotOneOfTheField) {
