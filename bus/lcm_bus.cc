@@ -20,7 +20,6 @@
 #include "bus/multicast_listener.h"
 #include "bus/receive_filter.h"
 #include "core/check.h"
-#include "core/clock.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -104,20 +103,14 @@ class LcmBus : public Bus {
   }
 
   int Poll(int64_t timeout_us, int maximum_messages) override {
-    const int64_t deadline_us = MonotonicMicroseconds() + timeout_us;
     int handled = 0;
     while (handled < maximum_messages) {
-      const int64_t left_us = deadline_us - MonotonicMicroseconds();
-      const Readable readable = WaitReadable(handled == 0 ? left_us : 0);
+      const Readable readable = WaitReadable(handled == 0 ? timeout_us : 0);
       if (!readable.lcm && !readable.listener) {
         break;
       }
-      const int before = handled;
       handled += readable.lcm ? HandleOne() : 0;
       handled += readable.listener ? listener_->HandOut(hear_all_, maximum_messages - handled) : 0;
-      if (handled == before && left_us <= 0) {
-        break;  // what is read is not always a message
-      }
     }
     return handled;
   }
@@ -218,13 +211,13 @@ class LcmBus : public Bus {
 
   Readable WaitReadable(int64_t timeout_us) const {
     constexpr int64_t kMicrosecondsPerSecond = 1'000'000;
-    const bool waiting = listener_ && listener_->has_waiting();
+    const bool left_over = listener_ && listener_->has_left_over();
     std::array<pollfd, 2> descriptors = {
         {{LcmDescriptor(), POLLIN, 0}, {listener_ ? listener_->descriptor() : -1, POLLIN, 0}}};
-    const int64_t wait_us = waiting ? 0 : std::max<int64_t>(timeout_us, 0);
+    const int64_t wait_us = left_over ? 0 : std::max<int64_t>(timeout_us, 0);
     const timespec timeout{wait_us / kMicrosecondsPerSecond, wait_us % kMicrosecondsPerSecond * 1000};
     const bool any = ppoll(descriptors.data(), descriptors.size(), &timeout, nullptr) > 0;
-    return {any && descriptors[0].revents != 0, waiting || (any && descriptors[1].revents != 0)};
+    return {any && descriptors[0].revents != 0, left_over || (any && descriptors[1].revents != 0)};
   }
 
   std::string url_;

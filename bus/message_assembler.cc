@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 
 #include "bus/lcm_datagram.h"
 #include "core/big_endian.h"

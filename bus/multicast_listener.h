@@ -1,83 +1,85 @@
-// Hears all LCM channels of a multicast group with a socket of its own, so that LCM, which believes every
-// number in a packet, reads none of them. Used by one thread.
+// Hears all LCM channels of a multicast group without LCM, which believes every number in a packet. A thread
+// of its own empties the socket, so that nothing is lost while the program does something else. Its functions
+// belong to one thread.
 #pragma once
 
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <sys/time.h>
-
-#include <array>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <mutex>
+#include <stop_token>
 #include <string>
-#include <vector>
+#include <thread>
 
 #include "bus/bus.h"
 #include "bus/lcm_url.h"
 #include "bus/message_assembler.h"
+#include "bus/multicast_socket.h"
 
 namespace fresco {
 
-/// What to do if a multicast group can't be joined.
-inline constexpr char kMulticastRemedy[] =
-    "most likely no route covers multicast; as root: ip route add 224.0.0.0/4 dev lo (as another user: "
-    "unshare "
-    "-Urn, then the same inside, after ip link set lo up), or the port is taken by another program";
+/// A descriptor that can be waited for: readable from Set until Clear. Any thread.
+class EventDescriptor {
+ public:
+  EventDescriptor();
+  ~EventDescriptor();
+  EventDescriptor(const EventDescriptor&) = delete;
+  EventDescriptor& operator=(const EventDescriptor&) = delete;
+
+  void Set();
+  void Clear();
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
 
 class MulticastListener {
  public:
-  /// From here on the kernel keeps what arrives. Throws UsageError, saying what to do, if the group can't be
-  /// joined.
+  /// Begins to listen. Throws UsageError as MulticastSocket does.
   explicit MulticastListener(const MulticastEndpoint& endpoint);
-  ~MulticastListener();
-  MulticastListener(const MulticastListener&) = delete;
-  MulticastListener& operator=(const MulticastListener&) = delete;
 
   /// Whether a message of this channel arrives that `send` sends: again and again for ten seconds. Drops all
-  /// other messages that arrive until then.
+  /// messages up to this one.
   bool Hears(const std::string& channel, const std::function<void()>& send);
 
-  /// Readable if HandOut has something to read.
-  int descriptor() const { return socket_; }
-  /// Messages that have been read and wait to be handed out.
-  bool has_waiting() const { return !waiting_.empty(); }
+  /// Readable if messages have arrived that HandOut has not looked at.
+  int descriptor() const { return arrival_.descriptor(); }
+  /// Whether HandOut has messages that it has looked at and not handed out.
+  bool has_left_over() const { return !taken_.empty(); }
 
-  /// Reads a batch of datagrams without waiting for any, then hands out up to `maximum` messages. Returns
-  /// their number. What the handler throws leaves this function, too; the message counts as handed out.
+  /// Hands out up to `maximum` of the messages that have arrived, without waiting for any. Returns their
+  /// number. What the handler throws leaves this function, too; that message counts as handed out.
   int HandOut(const BusEventHandler& handler, int maximum);
 
   UnheardTraffic unheard() const;
 
  private:
-  static constexpr size_t kBatchDatagrams = 32;
-  static constexpr size_t kDatagramBytes = 65'536;  // UDP has no larger one
-
-  struct Waiting {
+  struct Arrived {
     int64_t utime;
     AssembledMessage message;
   };
 
-  /// A datagram, and what the kernel says of it.
-  struct Slot {
-    std::array<std::byte, kDatagramBytes> datagram;
-    iovec datagram_vector;
-    sockaddr_in sender;
-    alignas(cmsghdr) std::array<std::byte, CMSG_SPACE(sizeof(timeval))> control;
-  };
+  void Listen(const std::stop_token& stop);
+  void Take(const ReceivedDatagram& received);
 
-  MulticastListener();
-  void Receive();
-  void Take(size_t index);
-
-  int socket_;
-  std::vector<Slot> slots_;
-  std::vector<mmsghdr> headers_;  // of the slots
+  MulticastSocket socket_;  // of the thread
   MessageAssembler assembler_;
-  std::deque<Waiting> waiting_;
-  size_t waiting_bytes_ = 0;
+
+  std::deque<Arrived> taken_;  // for HandOut
   int64_t handed_out_ = 0;
+
+  EventDescriptor arrival_;
+  EventDescriptor end_;
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable_any room_;
+  std::deque<Arrived> arrived_;
+  size_t arrived_bytes_ = 0;
+  UnheardTraffic unheard_;
+
+  std::jthread thread_;  // ends first
 };
 
 }  // namespace fresco

@@ -26,6 +26,7 @@ namespace {
   }
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
+  close_range(STDERR_FILENO + 1, ~0u, 0);  // LCM's sockets, which it leaves open to children
   execv(arguments[0], arguments);
   dprintf(STDERR_FILENO, "can't start %s: %s\n", arguments[0], std::strerror(errno));
   _exit(127);

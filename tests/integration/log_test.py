@@ -126,6 +126,9 @@ class Log(Recorded):
                 for row in parse_transitions(message)}
         self.assertEqual(run["transitions"], len(rows))
         self.assertEqual([actor["missing"] for actor in info["actors"]], [0, 0])
+        said = (self.folder / "run" / "recorder.log").read_text()
+        for word in ("LOST", "DROPPED", "REFUSED", "INCOMPLETE"):
+            self.assertNotIn(word, said)
         # What LCM's own logger has beside it is the same, but for what it missed.
         [logged_run] = self.info(logged)["runs"]
         self.assertEqual(logged_run["run_id"], run["run_id"])
