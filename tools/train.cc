@@ -6,6 +6,7 @@
 
 #include "bus/command_line.h"
 #include "core/stop_signal.h"
+#include "learner/summary.h"
 #include "msgs/settings.h"
 #include "tools/installation.h"
 #include "tools/live_line.h"
@@ -92,6 +93,9 @@ int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOpti
   if (status != 0) {
     fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ngo on with it: {}\n",
                Interruption(folder), folder.string(), run.ResumeCommand());
+  } else if (!IsFinished(summary)) {
+    fmt::print(stderr, "fresco: stopped; what was trained is complete, and {} goes on with the search\n",
+               run.ResumeCommand());
   } else if (text) {
     fmt::print("\nlook at it: {}\nfly it:     tools/fresco evaluate --policy {}\n",
                (folder / "report.html").string(), folder.string());

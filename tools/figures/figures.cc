@@ -42,11 +42,13 @@ StudyScope ScopeOf(const FiguresOptions& options) {
   return scope;
 }
 
-/// One actor a run (it outruns the learner by far), and the search for the optimum to its end.
+/// One actor a run (it outruns the learner by far), and the search for the optimum to its end, unless the
+/// options limit it.
 Experiment BaseExperiment(const FiguresOptions& options) {
-  Settings settings = ParseSettings(options.settings);
+  Settings settings = {{"run.optimum_limit_s", "3600"}};
+  const Settings given = ParseSettings(options.settings);
+  settings.insert(settings.end(), given.begin(), given.end());
   settings.emplace_back("run.actors", "1");
-  settings.emplace_back("run.optimum_limit_s", "3600");
   if (!options.lcm_url.empty()) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
@@ -56,6 +58,14 @@ Experiment BaseExperiment(const FiguresOptions& options) {
   return Experiment::Load(config, settings);
 }
 
+std::string MeanGapText(const WrittenFigures& written) {
+  const std::string gap =
+      written.mean_gap_percent ? fmt::format("{:.2f} %", *written.mean_gap_percent) : "not known";
+  return written.unproved_runs == 0
+             ? gap
+             : fmt::format("{} (without {} runs whose optimum is not proved)", gap, written.unproved_runs);
+}
+
 int WriteFigures(const FiguresOptions& options) {
   const Experiment base = BaseExperiment(options);
   const PaperStudy study = MakePaperStudy(base, ScopeOf(options));
@@ -63,8 +73,7 @@ int WriteFigures(const FiguresOptions& options) {
   const std::vector<StudyResult> results =
       RunStudy(study.jobs, {folder / "runs", options.parallel, options.bus});
   const WrittenFigures written = WriteStudyFigures(folder, base, study, results);
-  fmt::print("mean gap of DQN to the optimum over both figures' points: {:.2f} %\n",
-             written.mean_gap_percent);
+  fmt::print("mean gap of DQN to the optimum over both figures' points: {}\n", MeanGapText(written));
   if (!written.picture_error.empty()) {
     throw Failure("the numbers are in " + folder.string() +
                   ", but not every picture: " + written.picture_error);

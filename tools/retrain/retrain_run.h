@@ -3,14 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
+#include "learner/optimum_search.h"
 #include "learner/run_folder.h"
 #include "learner/trainer.h"
 #include "msgs/experiment.h"
 #include "tools/retrain/retrain_report.h"
-#include "uav/planner.h"
 
 namespace fresco {
 
@@ -30,8 +29,7 @@ class RetrainRun {
   bool completed() const { return completed_; }
 
  private:
-  std::string Results(const Trainer& trainer, double wall_s, std::shared_ptr<const Plan> plan,
-                      RunFolder& folder);
+  std::string Results(const Trainer& trainer, double wall_s, const OptimumResult& optimum, RunFolder& folder);
 
   Experiment experiment_;
   World world_;
