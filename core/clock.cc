@@ -1,6 +1,7 @@
 #include "core/clock.h"
 
 #include <chrono>
+#include <ctime>
 
 namespace fresco {
 namespace {
@@ -18,6 +19,12 @@ int64_t WallMicroseconds() {
 
 int64_t MonotonicMicroseconds() {
   return Microseconds<std::chrono::steady_clock>();
+}
+
+int64_t ThreadProcessorMicroseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return int64_t{time.tv_sec} * 1'000'000 + time.tv_nsec / 1000;
 }
 
 }  // namespace fresco

@@ -12,4 +12,8 @@ int64_t WallMicroseconds();
 /// Microseconds of a clock that never jumps, from an arbitrary origin: for deadlines and rates.
 int64_t MonotonicMicroseconds();
 
+/// Processor time that the calling thread has taken so far, in microseconds: it stands still while the
+/// thread waits for a processor or for anything else.
+int64_t ThreadProcessorMicroseconds();
+
 }  // namespace fresco

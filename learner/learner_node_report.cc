@@ -33,8 +33,9 @@ void LearnerNode::AddEvaluations(learner_status_t& status) const {
   status.arrived = last_evaluation_ && last_evaluation_->arrived ? 1 : 0;
   status.lower_bound_average_aoi = optimum_ ? optimum_->lower_bound_average_aoi : kNan;
   status.optimum_proved = optimum_ && optimum_->proved ? 1 : 0;
-  status.gap_percent =
-      optimum_ ? GapPercent(status.best_average_aoi, optimum_->lower_bound_average_aoi) : kNan;
+  status.gap_percent = status.optimum_proved != 0
+                           ? GapPercent(status.best_average_aoi, optimum_->lower_bound_average_aoi)
+                           : kNan;
 }
 
 learner_status_t LearnerNode::Status(int64_t now_us) {

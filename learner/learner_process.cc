@@ -43,7 +43,7 @@ bool LearnerProcess::Run() {
     std::rethrow_exception(network_error_);
   }
   WriteResults();
-  return completed_;
+  return trainer_.finished();
 }
 
 TrainerOutput LearnerProcess::Output() {
@@ -161,7 +161,7 @@ void LearnerProcess::WriteCheckpoint() {
   auto checkpoint = std::make_shared<Checkpoint>(
       Checkpoint{experiment_, ArithmeticFingerprint(), options_.run_id, trainer_.Save()});
   checkpoint->resumptions = resumptions_;
-  checkpoint->wall_s = WallSeconds();
+  checkpoint->wall_s = trainer_.finished() ? wall_s_ : WallSeconds();
   checkpoint->metrics = folder_.metrics();
   checkpoint->counters = ToMap(node_.counters());
   folder_.WriteCheckpoint(std::move(checkpoint));
@@ -169,16 +169,24 @@ void LearnerProcess::WriteCheckpoint() {
   checkpoints_.longest_pause_us = std::max(checkpoints_.longest_pause_us, MonotonicMicroseconds() - begin_us);
 }
 
-/// The search may outlast a short training; a run that did not come to its end does not wait for it.
+/// The search may outlast a short training; a run that did not come to its end does not wait for it. If the
+/// program is asked to stop while it waits, the training is complete all the same. The checkpoint of its end
+/// lets the search be gone on with.
 void LearnerProcess::WaitForOptimum() {
   constexpr int64_t kReportUs = 200'000;
+  if (trainer_.finished()) {
+    optimum_->TakeFullPriority();
+  }
   while (trainer_.finished() && !StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
-    node_.SetFinishing(
-        fmt::format("the search for the exact optimum, {:.0f} s more at most", optimum_->seconds_left()));
+    node_.SetFinishing(fmt::format("the proof of the exact optimum: {:.0f} s of processor time more at most",
+                                   optimum_->processor_seconds_left()));
     Report();
   }
-  completed_ = trainer_.finished() && optimum_->WaitForEnd(0);
   optimum_->Stop();
+  if (trainer_.finished() && optimum_->result().end == SearchEnd::kStopped) {
+    spdlog::info("the search for the exact optimum was stopped");
+    WriteCheckpoint();
+  }
   Report();
 }
 
@@ -195,14 +203,14 @@ double LearnerProcess::WallSeconds() const {
 }
 
 void LearnerProcess::WriteResults() {
-  const std::shared_ptr<const Plan> plan = optimum_->plan();
-  if (plan != nullptr) {
-    folder_.WriteOptimum(OptimumJson(world_, *plan));
+  const OptimumResult optimum = optimum_->result();
+  if (optimum.plan != nullptr) {
+    folder_.WriteOptimum(OptimumJson(world_, *optimum.plan));
   }
   folder_.WriteFinal(trainer_.current(), trainer_.progress());
   folder_.Finish();
-  folder_.WriteSummary(SummaryJson({experiment_, world_, options_.run_id, completed_, wall_s_, trainer_,
-                                    node_.counters(), plan, resumptions_, checkpoints_}));
+  folder_.WriteSummary(SummaryJson({experiment_, world_, options_.run_id, trainer_.finished(), wall_s_,
+                                    trainer_, node_.counters(), optimum, resumptions_, checkpoints_}));
 }
 
 }  // namespace fresco

@@ -28,8 +28,9 @@ class LearnerProcess {
   /// Takes the run's folder and subscribes. `bus` must outlive the process.
   LearnerProcess(const Experiment& experiment, Bus& bus, LearnerOptions options);
 
-  /// Returns whether the run was completed; otherwise it was interrupted, by a signal or for want of
-  /// episodes, and a checkpoint and a summary are written.
+  /// Returns whether the training was completed; otherwise it was interrupted, by a signal or for want of
+  /// episodes. Results are written in any case, and a checkpoint if the training or the search for the
+  /// optimum was cut short.
   bool Run();
 
  private:
@@ -61,7 +62,6 @@ class LearnerProcess {
   double wall_s_ = 0;         // of the training
   int64_t next_checkpoint_us_ = 0;
   CheckpointFigures checkpoints_;
-  bool completed_ = false;  // training and search came to their ends
 };
 
 }  // namespace fresco

@@ -9,21 +9,30 @@
 #include <chrono>
 #include <exception>
 
-#include "core/clock.h"
-
 namespace fresco {
-namespace {
 
-/// The calling thread only: what trains and what talks goes first.
-void TakeWhatIsLeftOfTheProcessor() {
-  constexpr int kLeastUrgent = 19;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kLeastUrgent);
+const char* SearchEndName(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::kOff:
+      return "off";
+    case SearchEnd::kProved:
+      return "proved";
+    case SearchEnd::kLimit:
+      return "limit";
+    case SearchEnd::kStopped:
+      return "stopped";
+    case SearchEnd::kFailed:
+      break;
+  }
+  return "failed";
 }
 
-}  // namespace
-
-OptimumSearch::OptimumSearch(const World& world, Limits limits)
-    : world_(&world), limits_(limits), begin_us_(MonotonicMicroseconds()), ended_(limits.seconds <= 0) {
+OptimumSearch::OptimumSearch(const World& world, Limits limits, ProcessorClock processor_clock)
+    : world_(&world),
+      limits_(limits),
+      processor_clock_(std::move(processor_clock)),
+      full_priority_(getpriority(PRIO_PROCESS, 0)),
+      ended_(limits.processor_seconds <= 0) {
   if (!ended_) {
     thread_ = std::thread([this] { Search(); });
   }
@@ -33,8 +42,26 @@ OptimumSearch::~OptimumSearch() {
   Stop();
 }
 
+/// Of the calling thread only: what trains and what talks goes first.
+void OptimumSearch::TakeLowPriority() {
+  constexpr int kLeastUrgent = 19;
+  const std::lock_guard lock(mutex_);
+  thread_id_ = static_cast<int>(syscall(SYS_gettid));
+  if (!hurried_) {
+    setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id_), kLeastUrgent);
+  }
+}
+
+void OptimumSearch::TakeFullPriority() {
+  const std::lock_guard lock(mutex_);
+  hurried_ = true;
+  if (thread_id_ != 0 && !ended_) {  // a thread that has ended leaves its number to others
+    setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id_), full_priority_);
+  }
+}
+
 void OptimumSearch::Search() {
-  TakeWhatIsLeftOfTheProcessor();
+  TakeLowPriority();
   std::shared_ptr<const Plan> plan;
   try {
     PlannerOptions options;
@@ -48,17 +75,29 @@ void OptimumSearch::Search() {
   if (plan != nullptr) {
     bound_ = {plan->lower_bound_average_aoi, plan->optimal};
   }
-  plan_ = std::move(plan);
+  result_ = {plan, EndOf(plan.get())};
   ended_ = true;
   ended_changed_.notify_all();
 }
 
+SearchEnd OptimumSearch::EndOf(const Plan* plan) const {
+  if (plan == nullptr) {
+    return SearchEnd::kFailed;
+  }
+  if (plan->optimal) {
+    return SearchEnd::kProved;
+  }
+  return stop_ && processor_seconds_ < limits_.processor_seconds ? SearchEnd::kStopped : SearchEnd::kLimit;
+}
+
 bool OptimumSearch::KeepGoing(const PlannerProgress& progress) {
+  const double processor_seconds = static_cast<double>(processor_clock_()) * 1e-6;
   const std::lock_guard lock(mutex_);
+  processor_seconds_ = processor_seconds;
   if (progress.lower_bound_average > 0) {
     bound_ = {progress.lower_bound_average, false};
   }
-  return !stop_ && static_cast<double>(MonotonicMicroseconds() - begin_us_) * 1e-6 < limits_.seconds;
+  return !stop_ && processor_seconds < limits_.processor_seconds;
 }
 
 std::optional<OptimumBound> OptimumSearch::bound() const {
@@ -66,10 +105,9 @@ std::optional<OptimumBound> OptimumSearch::bound() const {
   return bound_;
 }
 
-double OptimumSearch::seconds_left() const {
+double OptimumSearch::processor_seconds_left() const {
   const std::lock_guard lock(mutex_);
-  const double passed_s = static_cast<double>(MonotonicMicroseconds() - begin_us_) * 1e-6;
-  return ended_ ? 0 : std::max(0.0, limits_.seconds - passed_s);
+  return ended_ ? 0 : std::max(0.0, limits_.processor_seconds - processor_seconds_);
 }
 
 bool OptimumSearch::WaitForEnd(int64_t timeout_us) {
@@ -79,14 +117,15 @@ bool OptimumSearch::WaitForEnd(int64_t timeout_us) {
 
 void OptimumSearch::Stop() {
   stop_ = true;
+  TakeFullPriority();
   if (thread_.joinable()) {
     thread_.join();
   }
 }
 
-std::shared_ptr<const Plan> OptimumSearch::plan() const {
+OptimumResult OptimumSearch::result() const {
   const std::lock_guard lock(mutex_);
-  return plan_;
+  return result_;
 }
 
 }  // namespace fresco

@@ -2,22 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "core/atomic_file.h"
 #include "core/error.h"
+#include "learner/checkpoint_folder.h"
 #include "learner/run_folder.h"
+#include "learner/summary.h"
 
 namespace fresco {
 namespace {
 
 void RefuseCompleteRun(const std::filesystem::path& folder) {
   const auto path = folder / "summary.json";
-  if (!std::filesystem::exists(path)) {
-    return;
-  }
-  const auto summary = nlohmann::json::parse(ReadFile(path), nullptr, false);
-  if (summary.is_object() && summary.value("completed", false)) {
+  if (std::filesystem::exists(path) && IsFinished(ReadFile(path))) {
     throw UsageError(fmt::format("--resume: the run in {} is complete", folder.string()));
   }
 }

@@ -41,21 +41,31 @@ void AddPolicy(const std::optional<BestNetwork>& best, OrderedJson& json) {
 }
 
 void AddOptimum(const SummaryInputs& inputs, OrderedJson& json) {
-  const Plan* plan = inputs.plan.get();
+  const Plan* plan = inputs.optimum.plan.get();
   const std::optional<BestNetwork>& best = inputs.trainer.best();
-  const bool optimal = plan != nullptr && plan->optimal;
-  const AoiFigures figures = optimal ? Figures(inputs.world, plan->flight) : AoiFigures{};
-  json["optimal_total_aoi"] = optimal ? OrderedJson(figures.total_aoi) : OrderedJson();
-  json["optimal_average_aoi"] = optimal ? OrderedJson(figures.average_aoi) : OrderedJson();
-  json["lower_bound_average_aoi"] =
-      plan != nullptr ? OrderedJson(plan->lower_bound_average_aoi) : OrderedJson();
+  const bool found = plan != nullptr;
+  const bool proved = found && plan->optimal;
+  const AoiFigures figures = found ? Figures(inputs.world, plan->flight) : AoiFigures{};
+  const double lower_bound = found ? plan->lower_bound_average_aoi : 0;
+  const auto value_if = [](bool known, auto value) { return known ? OrderedJson(value) : OrderedJson(); };
+  json["optimum_search"] = SearchEndName(inputs.optimum.end);
+  json["optimal_total_aoi"] = value_if(proved, figures.total_aoi);
+  json["optimal_average_aoi"] = value_if(proved, figures.average_aoi);
+  json["best_found_total_aoi"] = value_if(found, figures.total_aoi);
+  json["best_found_average_aoi"] = value_if(found, figures.average_aoi);
+  json["lower_bound_average_aoi"] = value_if(found, lower_bound);
+  const bool has_gap = proved && best && best->evaluation.arrived;
   json["gap_percent"] =
-      plan != nullptr && best && best->evaluation.arrived
-          ? OrderedJson(GapPercent(best->evaluation.figures.average_aoi, plan->lower_bound_average_aoi))
-          : OrderedJson();
+      has_gap ? OrderedJson(GapPercent(best->evaluation.figures.average_aoi, lower_bound)) : OrderedJson();
 }
 
 }  // namespace
+
+bool IsFinished(const std::string& summary_json) {
+  const auto summary = nlohmann::json::parse(summary_json, nullptr, false);
+  return summary.is_object() && summary.value("completed", false) &&
+         summary.value("optimum_search", "") != SearchEndName(SearchEnd::kStopped);
+}
 
 std::string OptimumJson(const World& world, const Plan& plan) {
   const AoiFigures figures = Figures(world, plan.flight);

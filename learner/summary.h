@@ -6,6 +6,7 @@
 #include <string>
 
 #include "learner/bus_counters.h"
+#include "learner/optimum_search.h"
 #include "learner/trainer.h"
 #include "msgs/experiment.h"
 #include "uav/planner.h"
@@ -23,20 +24,26 @@ struct SummaryInputs {
   const Experiment& experiment;
   const World& world;
   int64_t run_id;
-  bool completed;  ///< false: the run was interrupted
+  bool completed;  ///< false: the training was interrupted
   double wall_s;
   const Trainer& trainer;
   BusCounters counters;
-  std::shared_ptr<const Plan> plan;  ///< of the search for the optimum; null: none
-  int resumptions = 0;               ///< how often the run was gone on with
+  OptimumResult optimum = {};
+  int resumptions = 0;  ///< how often the run was gone on with
   CheckpointFigures checkpoints = {};
 };
 
 /// One JSON object. The policy's figures are those of the best evaluated version; `arrived` and the
-/// AoI figures are null before the first evaluation. `optimal_…` are null unless the optimum is proved;
-/// `gap_percent` is that of average_aoi above the optimum, or above lower_bound_average_aoi where it is
-/// not proved (then it is the gap at most); null where the policy does not arrive.
+/// AoI figures are null before the first evaluation. `optimum_search` says how the search ended
+/// (SearchEndName). `optimal_…` are null unless the optimum is proved, and so is `gap_percent`, that of
+/// average_aoi above the optimum; it is also null if the policy does not arrive. `best_found_…` are those of
+/// the best flight that the search found, which is the optimum if that is proved. No flight has an average
+/// AoI below `lower_bound_average_aoi`. Both are null without a result of the search.
 std::string SummaryJson(const SummaryInputs& inputs);
+
+/// Whether nothing of a run is left to do, by its summary's JSON: it is trained, and its search for the
+/// optimum was not stopped. False for what is no summary.
+bool IsFinished(const std::string& summary_json);
 
 /// optimum.json: the best flight of the search, as indices of actions, and what is proved of it.
 std::string OptimumJson(const World& world, const Plan& plan);

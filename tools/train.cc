@@ -9,6 +9,7 @@
 #include "core/command_line.h"
 #include "core/installation.h"
 #include "core/signals.h"
+#include "learner/summary.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
 #include "tools/live_line.h"
@@ -95,6 +96,9 @@ int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOpti
   if (status != 0) {
     fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ngo on with it: {}\n",
                Interruption(folder), folder.string(), run.ResumeCommand());
+  } else if (!IsFinished(summary)) {
+    fmt::print(stderr, "fresco: stopped; what was trained is complete, and {} goes on with the search\n",
+               run.ResumeCommand());
   } else if (text) {
     fmt::print("\nlook at it: {}\nfly it:     {} evaluate --policy {}\n", (folder / "report.html").string(),
                ProgramName(), folder.string());

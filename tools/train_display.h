@@ -9,14 +9,23 @@
 namespace fresco {
 
 /// One line: first the learner's warning, if there is one, which no narrow terminal may cut off; episodes,
-/// updates, epsilon, greedy average AoI and its gap to the optimum, rates, who waits for whom.
+/// updates, epsilon, greedy average AoI and, once the optimum is proved, its gap, rates, who waits for whom.
+/// After the last episode it begins with what is waited for.
 std::string ProgressLine(const learner_status_t& status);
 
-/// A heading and a row for this run, each baseline and the exact optimum (or the lower bound on it), from
-/// a summary's JSON: policy, average AoI, total AoI, gap, arrived.
+/// A heading and a row for this run, each baseline and the exact optimum, from a summary's JSON: policy,
+/// average AoI, total AoI, gap, arrived. If the optimum is not proved, the best flight that the search found
+/// stands in its place, and no row has a gap.
 std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json);
 
-/// The final table: this run, the baselines and the exact optimum, with their gaps, from a summary's JSON.
+/// What the best flight that a search found is called: the exact optimum only if it is proved.
+std::string FoundFlightName(bool proved);
+
+/// If the optimum was searched for and is not proved: why, what is proved instead, and what follows from that
+/// for this run. Empty otherwise.
+std::string OptimumNote(const std::string& summary_json);
+
+/// The final table: the rows, then the note, from a summary's JSON.
 std::string ResultTable(const std::string& summary_json);
 
 }  // namespace fresco

@@ -52,7 +52,8 @@ class AoiAccumulator {
 
 AoiFigures Figures(const World& world, const Flight& flight);
 
-/// By how many percent an average AoI lies above the least possible one, or above a lower bound on it.
+/// By how many percent an average AoI lies above the least possible one. (Above a lower bound on that one it
+/// says only how large the gap is at most; whoever shows it must say so.)
 double GapPercent(double average_aoi, double least_average_aoi);
 
 /// Flies one episode from the start with the actions of `policy`.

@@ -70,7 +70,8 @@ class Figures(FrescoTest):
         self.assertIn("goes on", errors)
         self.assertEqual(processes_with(":17331"), [])
         complete = {path: path.stat().st_mtime_ns for path in runs_folder.glob("*/summary.json")
-                    if '"completed": true' in path.read_text()}
+                    if '"completed": true' in path.read_text()
+                    and '"optimum_search": "stopped"' not in path.read_text()}
         interrupted = {path.parent for path in runs_folder.glob("*/checkpoints")} - {path.parent for path in complete}
         self.assertTrue(complete)
         self.assertTrue(interrupted)

@@ -1,6 +1,7 @@
 """`fresco train` with real processes over real LCM: the promises of the README."""
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -103,6 +104,60 @@ class Train(FrescoTest):
                               "report.html", "summary.json"},
                              {path.name for path in folder.iterdir()})
         self.assertEqual(processes_with(str(folder)) + processes_with(":17304"), [])
+
+    def test_goes_on_until_the_optimum_is_proved(self):
+        """The training takes a second, the search for eight sensors several."""
+        _, summary = self.train_few_episodes(17310, "eight", 8, "run.optimum_limit_s=900")
+        self.assertEqual((summary["optimum_search"], summary["episodes"]), ("proved", 20))
+        self.assertEqual(summary["best_found_total_aoi"], summary["optimal_total_aoi"])
+        if summary["arrived"]:
+            gap = 100 * (summary["total_aoi"] / summary["optimal_total_aoi"] - 1)
+            self.assertAlmostEqual(summary["gap_percent"], gap, places=6)
+
+    def test_has_no_gap_to_an_optimum_that_is_not_proved(self):
+        output, summary = self.train_few_episodes(17312, "unproved", 40, "run.optimum_limit_s=0.3", form="text")
+        self.assertEqual(summary["optimum_search"], "limit")
+        for field in ("gap_percent", "optimal_total_aoi", "optimal_average_aoi"):
+            self.assertIsNone(summary[field], field)
+        self.assertLessEqual(summary["lower_bound_average_aoi"], summary["best_found_average_aoi"])
+        page = (self.folder / "unproved" / "report.html").read_text()
+        for text in (output, page):
+            self.assertIn("not proved", text)
+            self.assertIn("The exact optimum is not proved: the search reached run.optimum_limit_s", text)
+            self.assertIn("best flight of the search", text)
+
+    def test_is_complete_when_it_is_stopped_while_it_waits_for_the_proof_which_goes_on_later(self):
+        errors = self.folder / "errors"
+        with open(errors, "w") as file:
+            process = self.start(*self.few_episodes(17311, "stopped", 40, "run.optimum_limit_s=3600"), "--format",
+                                 "json", stderr=file)
+        waits = r"trained, waits for the proof of the exact optimum: \d+ s of processor time more at most"
+        wait_until(lambda: re.search(waits, errors.read_text()), "the end of the training")
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, errors.read_text())
+        stopped = json.loads(output)
+        self.assertEqual((stopped["completed"], stopped["optimum_search"]), (True, "stopped"))
+        self.assertIsNone(stopped["gap_percent"])
+        self.assertIn("--resume", errors.read_text())
+        resume = ("train", "--resume", self.folder / "stopped", "--format", "json", "--set", "run.optimum_limit_s=0.3")
+        output, _ = self.run_fresco(*resume)
+        resumed = json.loads(output)
+        self.assertEqual((resumed["completed"], resumed["optimum_search"], resumed["resumptions"]), (True, "limit", 1))
+        for field in ("weights_crc32c", "updates", "total_aoi"):
+            self.assertEqual(resumed[field], stopped[field], field)
+        self.run_fresco(*resume, expect=2)
+
+    def few_episodes(self, port, name, sensors, setting):
+        config = self.folder / f"{name}.textproto"
+        config.write_text(f"scenario {{ random_sensors {{ count: {sensors} seed: 3 }} }} agent {{ safe_action_mask: "
+                          "true hidden_layers: 16 } schedule { episodes: 20 minimum_replay_size: 500 "
+                          "inserts_per_update: 4 }")
+        return ("train", "--config", config, "--lcm-url", url(port), "--out", self.folder / name, "--set", setting)
+
+    def train_few_episodes(self, port, name, sensors, setting, form="json"):
+        output, _ = self.run_fresco(*self.few_episodes(port, name, sensors, setting), "--format", form)
+        return output, json.loads((self.folder / name / "summary.json").read_text())
 
     def test_leaves_no_process_behind_when_it_is_killed(self):
         folder = self.folder / "killed"

@@ -2,7 +2,9 @@
 #include "learner/learner_node.h"
 
 #include <gtest/gtest.h>
+
 #include <spdlog/spdlog.h>
+#include <cmath>
 
 #include "core/clock.h"
 #include "msgs/current_run.h"
@@ -61,6 +63,22 @@ TEST_F(LearnerNodeTest, ShowsAWarningInItsStatusUntilItIsTakenBack) {
   EXPECT_EQ(NextStatus().warning, std::string(kMaximumWarningBytes, 'w'));
   node_.SetWarning("");
   EXPECT_EQ(NextStatus().warning, "");
+}
+
+TEST_F(LearnerNodeTest, TellsAGapOnlyToAProvedOptimum) {
+  Evaluation evaluation;
+  evaluation.arrived = true;
+  evaluation.figures.average_aoi = 12;
+  node_.SetProgress({}, evaluation, BestNetwork{evaluation, nullptr});
+  node_.SetOptimum({2, false});
+  learner_status_t status = NextStatus();
+  EXPECT_EQ(status.lower_bound_average_aoi, 2);
+  EXPECT_EQ(status.optimum_proved, 0);
+  EXPECT_TRUE(std::isnan(status.gap_percent));
+  node_.SetOptimum({10, true});
+  status = NextStatus();
+  EXPECT_EQ(status.optimum_proved, 1);
+  EXPECT_EQ(status.gap_percent, 20);
 }
 
 TEST_F(LearnerNodeTest, TellsViewersItsField) {

@@ -181,8 +181,15 @@ TEST_F(ResumptionTest, RefusesAFolderWithoutARunAndACompleteRun) {
   EXPECT_EQ(Refusal(), "accepted");
   WriteFileAtomically(directory_ / "summary.json", R"({"completed": true})");
   EXPECT_NE(Refusal().find("complete"), std::string::npos) << Refusal();
+  WriteFileAtomically(directory_ / "summary.json", R"({"completed": true, "optimum_search": "limit"})");
+  EXPECT_NE(Refusal().find("complete"), std::string::npos) << Refusal();
   std::filesystem::remove(directory_ / "config.textproto");
   EXPECT_NE(Refusal().find("config.textproto"), std::string::npos) << Refusal();
+}
+
+TEST_F(ResumptionTest, LetsAStoppedSearchForTheOptimumGoOn) {
+  WriteFileAtomically(directory_ / "summary.json", R"({"completed": true, "optimum_search": "stopped"})");
+  EXPECT_EQ(Refusal(), "accepted");
 }
 
 TEST_F(ResumptionTest, KeepsTheLatestFewCheckpoints) {

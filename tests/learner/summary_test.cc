@@ -34,9 +34,16 @@ BusCounters DistinctCounters() {
   return counters;
 }
 
-Json SummaryOf(const RecordedRun& run, int64_t run_id = 0x2a, std::shared_ptr<const Plan> plan = nullptr) {
-  return Json::parse(SummaryJson({run.experiment, run.world, run_id, run.trainer.finished(), 4.0, run.trainer,
-                                  DistinctCounters(), plan}));
+Json SummaryOf(const RecordedRun& run, int64_t run_id = 0x2a, std::shared_ptr<const Plan> plan = nullptr,
+               SearchEnd end = SearchEnd::kOff) {
+  return Json::parse(SummaryJson({run.experiment,
+                                  run.world,
+                                  run_id,
+                                  run.trainer.finished(),
+                                  4.0,
+                                  run.trainer,
+                                  DistinctCounters(),
+                                  {std::move(plan), end}}));
 }
 
 std::string EightDigits(uint32_t value) {
@@ -127,7 +134,7 @@ TEST(Summary, GivesTheOptimumAndTheGapToIt) {
   EXPECT_NEAR(summary.at("gap_percent").get<double>(), (average_aoi / optimal.average_aoi - 1) * 100, 1e-9);
 }
 
-TEST(Summary, GivesTheGapToALowerBoundWhereTheOptimumIsNotProved) {
+TEST(Summary, HasALowerBoundAndNoGapIfTheOptimumIsNotProved) {
   RecordedRun run;
   run.Finish();
   const auto plan = PlanOf(run, false);
@@ -135,14 +142,31 @@ TEST(Summary, GivesTheGapToALowerBoundWhereTheOptimumIsNotProved) {
   EXPECT_TRUE(summary.at("optimal_total_aoi").is_null());
   EXPECT_TRUE(summary.at("optimal_average_aoi").is_null());
   EXPECT_EQ(summary.at("lower_bound_average_aoi"), plan->lower_bound_average_aoi);
-  const double average_aoi = summary.at("average_aoi").get<double>();
-  EXPECT_NEAR(summary.at("gap_percent").get<double>(),
-              (average_aoi / plan->lower_bound_average_aoi - 1) * 100, 1e-9);
+  EXPECT_EQ(summary.at("best_found_total_aoi"), Figures(run.world, plan->flight).total_aoi);
+  EXPECT_EQ(summary.at("best_found_average_aoi"), Figures(run.world, plan->flight).average_aoi);
+  EXPECT_TRUE(summary.at("gap_percent").is_null());
+}
+
+TEST(Summary, SaysHowTheSearchEndedAndWhetherSomethingIsLeftToDo) {
+  RecordedRun unfinished;
+  EXPECT_FALSE(IsFinished(SummaryOf(unfinished).dump()));
+  RecordedRun run;
+  run.Finish();
+  for (const auto& [end, name, finished] :
+       {std::tuple(SearchEnd::kOff, "off", true), std::tuple(SearchEnd::kProved, "proved", true),
+        std::tuple(SearchEnd::kLimit, "limit", true), std::tuple(SearchEnd::kStopped, "stopped", false),
+        std::tuple(SearchEnd::kFailed, "failed", true)}) {
+    const Json summary = SummaryOf(run, 1, nullptr, end);
+    EXPECT_EQ(summary.at("optimum_search"), name);
+    EXPECT_EQ(IsFinished(summary.dump()), finished) << name;
+  }
+  EXPECT_FALSE(IsFinished("no summary"));
 }
 
 TEST(Summary, HasNoGapWithoutASearchOrAnEvaluation) {
   RecordedRun run;
-  for (const char* field : {"optimal_total_aoi", "lower_bound_average_aoi", "gap_percent"}) {
+  for (const char* field :
+       {"optimal_total_aoi", "best_found_total_aoi", "lower_bound_average_aoi", "gap_percent"}) {
     EXPECT_TRUE(SummaryOf(run).at(field).is_null()) << field;
   }
   EXPECT_TRUE(SummaryOf(run, 1, PlanOf(run, true)).at("gap_percent").is_null());

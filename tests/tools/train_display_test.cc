@@ -31,11 +31,14 @@ std::string Summary(const std::string& average_aoi, const std::string& optimum) 
 }
 
 constexpr char kProved[] =
-    R"("optimal_average_aoi": 12.5, "optimal_total_aoi": 2625, "lower_bound_average_aoi": 12.5)";
+    R"("optimum_search": "proved", "optimal_average_aoi": 12.5, "optimal_total_aoi": 2625,
+       "best_found_average_aoi": 12.5, "best_found_total_aoi": 2625, "lower_bound_average_aoi": 12.5)";
 constexpr char kBounded[] =
-    R"("optimal_average_aoi": null, "optimal_total_aoi": null, "lower_bound_average_aoi": 10)";
+    R"("optimum_search": "limit", "optimal_average_aoi": null, "optimal_total_aoi": null,
+       "best_found_average_aoi": 12.75, "best_found_total_aoi": 2680, "lower_bound_average_aoi": 10)";
 constexpr char kUnknown[] =
-    R"("optimal_average_aoi": null, "optimal_total_aoi": null, "lower_bound_average_aoi": null)";
+    R"("optimum_search": "off", "optimal_average_aoi": null, "optimal_total_aoi": null,
+       "best_found_average_aoi": null, "best_found_total_aoi": null, "lower_bound_average_aoi": null)";
 
 TEST(ProgressLine, SaysHowFarTheRunIsAndWhoWaits) {
   learner_status_t status = Status();
@@ -47,6 +50,15 @@ TEST(ProgressLine, SaysHowFarTheRunIsAndWhoWaits) {
   EXPECT_NE(ProgressLine(status).find("learner waits for an actor to join"), std::string::npos);
 }
 
+TEST(ProgressLine, BeginsWithWhatIsWaitedForAfterTheTraining) {
+  learner_status_t status = Status();
+  status.episodes = status.total_episodes;
+  status.waiting_for = "the proof of the exact optimum: 40 s of processor time more at most";
+  EXPECT_EQ(ProgressLine(status).find(
+                "trained, waits for the proof of the exact optimum: 40 s of processor time more at most | 6000 "),
+            0u);
+}
+
 TEST(ProgressLine, BeginsWithAWarning) {
   learner_status_t status = Status();
   status.warning = "the last checkpoint could not be written";
@@ -54,14 +66,17 @@ TEST(ProgressLine, BeginsWithAWarning) {
             0u);
 }
 
-TEST(ProgressLine, ShowsTheGapOnceThereIsABound) {
+TEST(ProgressLine, ShowsTheGapOnceTheOptimumIsProvedAndABoundBefore) {
   learner_status_t status = Status();
   status.average_aoi = 14;
   status.best_average_aoi = 13.75;
   status.arrived = 1;
   EXPECT_NE(ProgressLine(status).find("greedy AoI 14.000 |"), std::string::npos);
+  status.lower_bound_average_aoi = 1.25;
+  EXPECT_NE(ProgressLine(status).find("best 13.750 (optimum not proved, at least 1.250) |"),
+            std::string::npos);
+  status.lower_bound_average_aoi = 12.5;
   status.gap_percent = 10;
-  EXPECT_NE(ProgressLine(status).find("best 13.750 (at most 10.00 % over the optimum)"), std::string::npos);
   status.optimum_proved = 1;
   EXPECT_NE(ProgressLine(status).find("best 13.750 (10.00 % over the optimum)"), std::string::npos);
   status.arrived = 0;
@@ -78,11 +93,29 @@ TEST(PolicyRows, HoldEveryPolicyAgainstTheOptimum) {
   EXPECT_EQ(rows[4], (std::vector<std::string>{"exact optimum", "12.500", "2625", "0.00 %", "yes"}));
 }
 
-TEST(PolicyRows, SayThatAGapToABoundIsOneAtMost) {
+TEST(PolicyRows, HaveNoGapAndNoOptimumIfThatIsNotProved) {
   const auto rows = PolicyRows(Summary("13", kBounded));
-  EXPECT_EQ(rows[0][3], "gap at most");
-  EXPECT_EQ(rows[1][3], "30.00 %");
-  EXPECT_EQ(rows[4][0], "lower bound");
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0][3], "gap");
+  EXPECT_EQ(rows[1], (std::vector<std::string>{"this run (DQN)", "13.000", "2804", "not proved", "yes"}));
+  EXPECT_EQ(rows[2][3], "not proved");
+  EXPECT_EQ(rows[4],
+            (std::vector<std::string>{"best flight of the search", "12.750", "2680", "not proved", "yes"}));
+}
+
+TEST(OptimumNote, SaysInWordsWhatABoundIsAndWhyThereIsNoMore) {
+  EXPECT_EQ(OptimumNote(Summary("13", kBounded)),
+            "The exact optimum is not proved: the search reached run.optimum_limit_s or "
+            "run.optimum_memory_mb. No flight has an average AoI below 10.000; this run lies above the "
+            "optimum by at most 30.00 %, which is a bound and not the gap.");
+  std::string stopped = Summary("13", kBounded);
+  stopped.replace(stopped.find("limit"), 5, "stopped");
+  EXPECT_NE(OptimumNote(stopped).find("the search was stopped."), std::string::npos);
+  EXPECT_EQ(OptimumNote(Summary("13", kProved)), "");
+  EXPECT_EQ(OptimumNote(Summary("null", kUnknown)), "");
+  std::string failed = Summary("null", kUnknown);
+  failed.replace(failed.find("off"), 3, "failed");
+  EXPECT_NE(OptimumNote(failed).find("failed"), std::string::npos);
 }
 
 TEST(PolicyRows, LeaveOutWhatIsNotKnown) {
@@ -96,6 +129,10 @@ TEST(ResultTable, HasALineForEveryRow) {
   const std::string table = ResultTable(Summary("13", kProved));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
   EXPECT_NE(table.find("exact optimum"), std::string::npos);
+  const std::string unproved = ResultTable(Summary("13", kBounded));
+  EXPECT_EQ(std::count(unproved.begin(), unproved.end(), '\n'), 6);
+  EXPECT_EQ(unproved.find("exact optimum  "), std::string::npos);
+  EXPECT_NE(unproved.find("The exact optimum is not proved"), std::string::npos);
 }
 
 }  // namespace

@@ -1,23 +1,40 @@
 #include "tools/figures/figure_groups.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 
 namespace fresco {
 
-MeanEstimate Group::Estimate(const std::function<double(const StudyResult&)>& figure) const {
+std::optional<MeanEstimate> Group::Average(const Policy& policy) const {
   std::vector<double> sample;
-  std::transform(results.begin(), results.end(), std::back_inserter(sample), figure);
+  for (const StudyResult& result : results) {
+    const std::optional<double> average_aoi = policy.average_aoi(result);
+    if (!average_aoi) {
+      return std::nullopt;
+    }
+    sample.push_back(*average_aoi);
+  }
   return EstimateMean(sample);
 }
 
-double Group::LargestGap() const {
-  double largest = results.front().gap_percent;
+std::vector<double> Group::Gaps() const {
+  std::vector<double> gaps;
   for (const StudyResult& result : results) {
-    largest = std::max(largest, result.gap_percent);
+    if (result.gap_percent) {
+      gaps.push_back(*result.gap_percent);
+    }
   }
-  return largest;
+  return gaps;
+}
+
+std::optional<MeanEstimate> Group::Gap() const {
+  const std::vector<double> gaps = Gaps();
+  return gaps.empty() ? std::nullopt : std::optional(EstimateMean(gaps));
+}
+
+std::optional<double> Group::LargestGap() const {
+  const std::vector<double> gaps = Gaps();
+  return gaps.empty() ? std::nullopt : std::optional(*std::max_element(gaps.begin(), gaps.end()));
 }
 
 std::vector<Group> GroupsOf(const PaperStudy& study, const std::vector<StudyResult>& results, Figure figure) {

@@ -1,7 +1,7 @@
 // The results of a study as the figures show them: by x, over deployments, for each policy. Pure.
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <vector>
 
 #include "tools/figures/paper_study.h"
@@ -15,13 +15,17 @@ struct Policy {
   const char* name;
   const char* column;
   CurveRole role;
-  double StudyResult::*average_aoi;
+  std::optional<double> (*average_aoi)(const StudyResult&);  ///< none: not known
 };
 inline constexpr Policy kPolicies[] = {
-    {"DQN", "dqn", CurveRole::kDqn, &StudyResult::average_aoi},
-    {"AoI-based", "aoi", CurveRole::kAoiBased, &StudyResult::aoi_average_aoi},
-    {"distance-based", "distance", CurveRole::kDistanceBased, &StudyResult::distance_average_aoi},
-    {"exact optimum", "optimal", CurveRole::kOptimum, &StudyResult::lower_bound_average_aoi},
+    {"DQN", "dqn", CurveRole::kDqn,
+     [](const StudyResult& result) { return std::optional(result.average_aoi); }},
+    {"AoI-based", "aoi", CurveRole::kAoiBased,
+     [](const StudyResult& result) { return std::optional(result.aoi_average_aoi); }},
+    {"distance-based", "distance", CurveRole::kDistanceBased,
+     [](const StudyResult& result) { return std::optional(result.distance_average_aoi); }},
+    {"exact optimum", "optimal", CurveRole::kOptimum,
+     [](const StudyResult& result) { return result.optimal_average_aoi; }},
 };
 
 /// The results at one x of a figure.
@@ -29,14 +33,13 @@ struct Group {
   double x = 0;
   std::vector<StudyResult> results;
 
-  MeanEstimate Estimate(const std::function<double(const StudyResult&)>& figure) const;
-  MeanEstimate Average(const Policy& policy) const {
-    return Estimate([&](const StudyResult& result) { return result.*policy.average_aoi; });
-  }
-  MeanEstimate Gap() const {
-    return Estimate([](const StudyResult& result) { return result.gap_percent; });
-  }
-  double LargestGap() const;
+  /// Over all results; none if it is not known of one of them: a mean over some deployments is not to be
+  /// held against another policy's over all.
+  std::optional<MeanEstimate> Average(const Policy& policy) const;
+  /// The gaps of the runs whose optimum is proved; no other run has a gap.
+  std::vector<double> Gaps() const;
+  std::optional<MeanEstimate> Gap() const;
+  std::optional<double> LargestGap() const;
 };
 
 /// The groups of a figure, by x.

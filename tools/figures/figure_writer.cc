@@ -13,6 +13,7 @@
 #include "tools/plots/flight_map.h"
 #include "tools/policy.h"
 #include "tools/report/run_report.h"
+#include "tools/train_display.h"
 
 namespace fresco {
 namespace {
@@ -48,17 +49,43 @@ constexpr EnergyFigure kEnergyFigures[] = {
      "budget limits how far the UAV flies. DQN was trained at the marked budgets."},
 };
 
+constexpr char kNotKnown[] = "-";
+
 std::string Number(double value, int digits) {
   return fmt::format("{:.{}f}", value, digits);
 }
 
-std::string WithSpread(const MeanEstimate& estimate, int digits) {
-  return Number(estimate.mean, digits) +
-         (estimate.half_width ? fmt::format(" ± {}", Number(*estimate.half_width, digits)) : "");
+std::string WithSpread(const std::optional<MeanEstimate>& estimate, int digits) {
+  if (!estimate) {
+    return kNotKnown;
+  }
+  return Number(estimate->mean, digits) +
+         (estimate->half_width ? fmt::format(" ± {}", Number(*estimate->half_width, digits)) : "");
 }
 
-CsvCell CellOrEmpty(const std::optional<double>& value) {
+/// Empty if there is no value.
+template <class Value>
+CsvCell CellOrEmpty(const std::optional<Value>& value) {
   return value ? CsvCell(*value) : CsvCell(std::string());
+}
+
+std::vector<CsvCell> CellsOf(const std::optional<MeanEstimate>& estimate) {
+  return {estimate ? CsvCell(estimate->mean) : CsvCell(std::string()),
+          CellOrEmpty(estimate ? estimate->half_width : std::nullopt)};
+}
+
+/// Of the file that shows a flight.
+std::string FlightFile(const std::string& name) {
+  const std::pair<std::string, const char*> files[] = {{FoundFlightName(true), "flight_optimal"},
+                                                       {FoundFlightName(false), "flight_best_found"},
+                                                       {"AoI-based", "flight_aoi"},
+                                                       {"distance-based", "flight_distance"}};
+  for (const auto& [flight, file] : files) {
+    if (flight == name) {
+      return file;
+    }
+  }
+  return "flight_dqn";
 }
 
 /// Everything that is written once the runs are there.
@@ -79,11 +106,14 @@ class FigureWriter {
     const FinishedRun field(folder_ / "runs" / study_.jobs.front().name);
     WriteField(field);
     WriteReport(field);
-    return {MeanGap(), picture_error_};
+    const auto unproved = std::count_if(results_.begin(), results_.end(),
+                                        [](const StudyResult& result) { return !result.gap_percent; });
+    return {MeanGap(), static_cast<int>(unproved), picture_error_};
   }
 
  private:
-  void Draw(const Picture& picture, const char* file, const std::string& title, const std::string& caption) {
+  void Draw(const Picture& picture, const std::string& file, const std::string& title,
+            const std::string& caption) {
     try {
       contents_.figures.push_back(WriteFigure(picture, folder_ / file, title, caption));
     } catch (const Error& error) {
@@ -95,15 +125,13 @@ class FigureWriter {
     std::vector<std::vector<CsvCell>> rows;
     for (size_t job = 0; job < study_.jobs.size(); ++job) {
       const StudyResult& result = results_[job];
-      if (!result.optimum_proved) {
-        spdlog::warn("the optimum of {} is not proved; its lower bound stands in its place",
-                     study_.jobs[job].name);
+      if (!result.gap_percent) {
+        spdlog::warn("the optimum of {} is not proved, so it has no gap", study_.jobs[job].name);
       }
       rows.push_back({study_.jobs[job].name, fmt::format("{:08x}", study_.jobs[job].experiment.hash()),
                       int64_t{result.arrived}, result.total_aoi, result.aoi_total_aoi,
-                      result.distance_total_aoi,
-                      result.optimum_proved ? CsvCell(result.optimal_total_aoi) : CsvCell(std::string()),
-                      result.average_aoi, result.lower_bound_average_aoi, result.gap_percent, result.updates,
+                      result.distance_total_aoi, CellOrEmpty(result.optimal_total_aoi), result.average_aoi,
+                      result.lower_bound_average_aoi, CellOrEmpty(result.gap_percent), result.updates,
                       result.weights_crc32c});
     }
     WriteCsv(folder_ / "runs.csv",
@@ -125,10 +153,11 @@ class FigureWriter {
       constexpr double kAside = 0.05;  // so that the spreads of several policies can be told apart
       curve.bars_aside = kAside * (static_cast<double>(plot.curves.size()) - 1.5);
       for (const Group& group : groups) {
-        const MeanEstimate estimate = group.Average(policy);
-        curve.x.push_back(group.x);
-        curve.y.push_back(estimate.mean);
-        curve.half_widths.push_back(estimate.half_width.value_or(0));
+        if (const std::optional<MeanEstimate> estimate = group.Average(policy)) {
+          curve.x.push_back(group.x);
+          curve.y.push_back(estimate->mean);
+          curve.half_widths.push_back(estimate->half_width.value_or(0));
+        }
       }
       plot.curves.push_back(std::move(curve));
     }
@@ -147,16 +176,17 @@ class FigureWriter {
       header.push_back(fmt::format("{}_average_aoi", policy.column));
       header.push_back(fmt::format("{}_half_width", policy.column));
     }
-    header.insert(header.end(), {"gap_percent", "gap_half_width", "gap_largest_percent"});
+    header.insert(header.end(), {"gap_percent", "gap_half_width", "gap_largest_percent", "gap_deployments"});
     std::vector<std::vector<CsvCell>> rows;
     for (const Group& group : groups) {
       std::vector<CsvCell> row = {static_cast<int64_t>(group.x), static_cast<int64_t>(group.results.size())};
       for (const Policy& policy : kPolicies) {
-        const MeanEstimate estimate = group.Average(policy);
-        row.insert(row.end(), {estimate.mean, CellOrEmpty(estimate.half_width)});
+        const std::vector<CsvCell> cells = CellsOf(group.Average(policy));
+        row.insert(row.end(), cells.begin(), cells.end());
       }
-      const MeanEstimate gap = group.Gap();
-      row.insert(row.end(), {gap.mean, CellOrEmpty(gap.half_width), group.LargestGap()});
+      const std::vector<CsvCell> gap = CellsOf(group.Gap());
+      row.insert(row.end(), gap.begin(), gap.end());
+      row.insert(row.end(), {CellOrEmpty(group.LargestGap()), static_cast<int64_t>(group.Gaps().size())});
       rows.push_back(std::move(row));
     }
     WriteCsv(folder_ / fmt::format("{}.csv", figure.file), header, rows);
@@ -173,7 +203,8 @@ class FigureWriter {
       for (const Policy& policy : kPolicies) {
         row.push_back(WithSpread(group.Average(policy), 2));
       }
-      row.insert(row.end(), {WithSpread(group.Gap(), 2), Number(group.LargestGap(), 2)});
+      const std::optional<double> largest = group.LargestGap();
+      row.insert(row.end(), {WithSpread(group.Gap(), 2), largest ? Number(*largest, 2) : kNotKnown});
       table.rows.push_back(std::move(row));
     }
     return table;
@@ -195,12 +226,12 @@ class FigureWriter {
           group != groups.end() ? group->results.front() : WithoutTraining(figure.figure, budget_j);
       std::vector<CsvCell> row = {budget_j};
       for (size_t i = 0; i < std::size(kPolicies); ++i) {
-        const double average_aoi = result.*kPolicies[i].average_aoi;
-        const bool known = kPolicies[i].role != CurveRole::kDqn || group != groups.end();
-        row.push_back(known ? CsvCell(average_aoi) : CsvCell(std::string()));
-        if (known) {
+        const bool trained = kPolicies[i].role != CurveRole::kDqn || group != groups.end();
+        const std::optional<double> average_aoi = trained ? kPolicies[i].average_aoi(result) : std::nullopt;
+        row.push_back(CellOrEmpty(average_aoi));
+        if (average_aoi) {
           plot.curves[i].x.push_back(budget_j);
-          plot.curves[i].y.push_back(average_aoi);
+          plot.curves[i].y.push_back(*average_aoi);
         }
       }
       rows.push_back(std::move(row));
@@ -233,7 +264,10 @@ class FigureWriter {
     StudyResult result;
     result.aoi_average_aoi = Figures(world, FlyBaseline(world, BaselineKind::kAoi)).average_aoi;
     result.distance_average_aoi = Figures(world, FlyBaseline(world, BaselineKind::kDistance)).average_aoi;
-    result.lower_bound_average_aoi = PlanWithin(world, {}).lower_bound_average_aoi;
+    const Plan plan = PlanWithin(world, {});
+    if (plan.optimal) {
+      result.optimal_average_aoi = Figures(world, plan.flight).average_aoi;
+    }
     return result;
   }
 
@@ -248,12 +282,11 @@ class FigureWriter {
              rows);
     Draw(DrawLinePlot(LearningCurvePlot(curve)), "learning_curve", "Learning curve",
          "One greedy flight of every evaluated version of one run's network.");
-    constexpr const char* kFiles[] = {"flight_dqn", "flight_optimal", "flight_aoi", "flight_distance"};
-    for (size_t i = 0; i < field.flights().size(); ++i) {
-      const ReportFlight& flight = field.flights()[i];
-      WriteFlightCsv(folder_ / fmt::format("{}.csv", kFiles[i]), flight.flight);
+    for (const ReportFlight& flight : field.flights()) {
+      const std::string file = FlightFile(flight.name);
+      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), flight.flight);
       const std::string title = "Flight: " + flight.name;
-      Draw(DrawFlightMap(title, field.world(), flight.flight), kFiles[i], title,
+      Draw(DrawFlightMap(title, field.world(), flight.flight), file, title,
            "The path's colour is the slot; a dot joined with a sensor is a collection.");
     }
   }
@@ -275,12 +308,14 @@ class FigureWriter {
   }
 
   void WriteReport(const FinishedRun& field) {
-    const double mean_gap = MeanGap();
     contents_.title = "Fresco: the paper's evaluation with the exact optimum";
-    contents_.summary = fmt::format(
-        "{} runs trained over LCM; over the two figures of the paper the trained policies lie {:.2f} % above "
-        "the exact optimum on average.",
-        study_.jobs.size(), mean_gap);
+    contents_.summary = fmt::format("{} runs trained over LCM.", study_.jobs.size());
+    if (const std::optional<double> mean_gap = MeanGap()) {
+      contents_.summary += fmt::format(
+          " Over the two figures of the paper the trained policies lie {:.2f} % above the exact optimum on "
+          "average. Runs whose optimum is not proved have no gap.",
+          *mean_gap);
+    }
     ReportTable policies = PolicyTable(field.summary());
     policies.title = "One field, flown below";
     contents_.tables.push_back(std::move(policies));
@@ -290,17 +325,19 @@ class FigureWriter {
     WriteFileAtomically(folder_ / "report.html", ReportPage(contents_));
   }
 
-  /// Over all rows of the two figures of the paper.
-  double MeanGap() const {
+  /// Over all rows of the two figures of the paper that have one.
+  std::optional<double> MeanGap() const {
     double sum = 0;
     int rows = 0;
     for (const DeploymentFigure& figure : kDeploymentFigures) {
       for (const Group& group : GroupsOf(study_, results_, figure.figure)) {
-        sum += group.Gap().mean;
-        ++rows;
+        if (const std::optional<MeanEstimate> gap = group.Gap()) {
+          sum += gap->mean;
+          ++rows;
+        }
       }
     }
-    return sum / rows;
+    return rows > 0 ? std::optional(sum / rows) : std::nullopt;
   }
 
   Path folder_;

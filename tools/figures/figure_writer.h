@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,10 @@
 namespace fresco {
 
 struct WrittenFigures {
-  double mean_gap_percent = 0;  ///< of DQN to the optimum, over all rows of the two figures of the paper
-  std::string picture_error;    ///< why pictures are missing; empty: none is
+  /// Of DQN to the optimum, over all rows of the two figures of the paper that have a gap; none: no row has.
+  std::optional<double> mean_gap_percent;
+  int unproved_runs = 0;      ///< whose optimum is not proved, so that they have no gap
+  std::string picture_error;  ///< why pictures are missing; empty: none is
 };
 
 /// Writes runs.csv, the figures `radius`, `sensors`, `energy`, `energy_dear_flight`, `learning_curve` and

@@ -44,16 +44,26 @@ StudyScope ScopeOf(const FiguresOptions& options) {
   return scope;
 }
 
-/// One actor a run (it outruns the learner by far), and the search for the optimum to its end.
+/// One actor a run (it outruns the learner by far), and the search for the optimum to its end, unless the
+/// options limit it.
 Experiment BaseExperiment(const FiguresOptions& options) {
-  Settings settings = ParseSettings(options.settings);
+  Settings settings = {{"run.optimum_limit_s", "3600"}};
+  const Settings given = ParseSettings(options.settings);
+  settings.insert(settings.end(), given.begin(), given.end());
   settings.emplace_back("run.actors", "1");
-  settings.emplace_back("run.optimum_limit_s", "3600");
   if (!options.lcm_url.empty()) {
     settings.emplace_back("run.lcm_url", options.lcm_url);
   }
   const std::string usual = options.quick ? "ci" : kDefaultExperiment;
   return Experiment::Load(ExperimentPath(options.config.empty() ? usual : options.config), settings);
+}
+
+std::string MeanGapText(const WrittenFigures& written) {
+  const std::string gap =
+      written.mean_gap_percent ? fmt::format("{:.2f} %", *written.mean_gap_percent) : "not known";
+  return written.unproved_runs == 0
+             ? gap
+             : fmt::format("{} (without {} runs whose optimum is not proved)", gap, written.unproved_runs);
 }
 
 int WriteFigures(const FiguresOptions& options) {
@@ -66,8 +76,7 @@ int WriteFigures(const FiguresOptions& options) {
   const std::vector<StudyResult> results =
       RunStudy(study.jobs, {folder / "runs", options.parallel, options.bus});
   const WrittenFigures written = WriteStudyFigures(folder, base, study, results);
-  fmt::print("mean gap of DQN to the optimum over both figures' points: {:.2f} %\n",
-             written.mean_gap_percent);
+  fmt::print("mean gap of DQN to the optimum over both figures' points: {}\n", MeanGapText(written));
   if (!written.picture_error.empty()) {
     throw Failure("the numbers are in " + folder.string() +
                   ", but not every picture: " + written.picture_error);

@@ -106,13 +106,14 @@ class Study {
   void Finish(size_t place) {
     Running& running = *running_[place];
     const int status = running.run->End();
-    const std::string summary = running.run->Summary();
-    if (status != 0 && !StopSignal::Requested()) {
+    running.run->Summary();  // throws in the learner's own words if there is none
+    const auto result = CompleteResult(FolderOf(running.job), jobs_[running.job]);
+    if (!result && !StopSignal::Requested()) {
       throw Failure(fmt::format("run {} ended with exit status {}; see {}", jobs_[running.job].name, status,
                                 (FolderOf(running.job) / "learner.log").string()));
     }
-    if (status == 0) {
-      results_[running.job] = ResultOf(summary, FolderOf(running.job));
+    if (result) {
+      results_[running.job] = *result;
       ++done_;
     }
     running_[place].reset();
@@ -131,13 +132,20 @@ class Study {
     return status ? static_cast<double>(status->episodes) / static_cast<double>(status->total_episodes) : 0;
   }
 
+  std::string Progress(const Running& running) const {
+    const auto& status = running.run->status();
+    return Share(running) < 1 || status->waiting_for.empty()
+               ? fmt::format("{:.0f} %", 100 * Share(running))
+               : fmt::format("is trained and waits for {}", status->waiting_for);
+  }
+
   void ShowProgress() {
     double runs_done = static_cast<double>(done_);
     std::string going_on;
     for (const auto& running : running_) {
       if (running) {
         runs_done += Share(*running);
-        going_on += fmt::format(" | {} {:.0f} %", jobs_[running->job].name, 100 * Share(*running));
+        going_on += fmt::format(" | {} {}", jobs_[running->job].name, Progress(*running));
       }
     }
     const double passed_s = static_cast<double>(MonotonicMicroseconds() - begin_us_) * 1e-6;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,11 @@ struct StudyResult {
   double distance_average_aoi = 0;
   int64_t aoi_total_aoi = 0;
   int64_t distance_total_aoi = 0;
-  bool optimum_proved = false;
-  double lower_bound_average_aoi = 0;  ///< the optimum's average AoI where it is proved
-  int64_t optimal_total_aoi = 0;       ///< where it is proved
-  double gap_percent = 0;              ///< above that bound
+  // Of the exact optimum; none if it is not proved.
+  std::optional<double> optimal_average_aoi;
+  std::optional<int64_t> optimal_total_aoi;
+  std::optional<double> gap_percent;   ///< of the policy above it
+  double lower_bound_average_aoi = 0;  ///< no flight has a smaller average AoI, proved in any case
   int64_t updates = 0;
   std::string weights_crc32c;
 };

@@ -7,6 +7,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "learner/checkpoint_folder.h"
+#include "learner/summary.h"
 #include "tools/training_run.h"
 #include "uav/flight.h"
 
@@ -47,10 +48,12 @@ StudyResult ResultOf(const std::string& summary_json, const Path& folder) {
   result.distance_average_aoi = baselines.at("distance").at("average_aoi").get<double>();
   result.aoi_total_aoi = baselines.at("aoi").at("total_aoi").get<int64_t>();
   result.distance_total_aoi = baselines.at("distance").at("total_aoi").get<int64_t>();
-  result.optimum_proved = !summary.at("optimal_total_aoi").is_null();
   result.lower_bound_average_aoi = summary.at("lower_bound_average_aoi").get<double>();
-  result.optimal_total_aoi = result.optimum_proved ? summary.at("optimal_total_aoi").get<int64_t>() : 0;
-  result.gap_percent = GapPercent(result.average_aoi, result.lower_bound_average_aoi);
+  if (!summary.at("optimal_total_aoi").is_null()) {
+    result.optimal_total_aoi = summary.at("optimal_total_aoi").get<int64_t>();
+    result.optimal_average_aoi = summary.at("optimal_average_aoi").get<double>();
+    result.gap_percent = GapPercent(result.average_aoi, result.lower_bound_average_aoi);
+  }
   result.updates = summary.at("updates").get<int64_t>();
   result.weights_crc32c = summary.at("weights_crc32c").get<std::string>();
   return result;
@@ -61,9 +64,8 @@ std::optional<StudyResult> CompleteResult(const Path& folder, const StudyJob& jo
     return std::nullopt;
   }
   const std::string text = ReadFile(folder / "summary.json");
-  const Json summary = Json::parse(text);
-  RefuseOtherConfiguration(folder, summary.at("config_hash").get<std::string>(), job);
-  return summary.at("completed").get<bool>() ? std::optional(ResultOf(text, folder)) : std::nullopt;
+  RefuseOtherConfiguration(folder, Json::parse(text).at("config_hash").get<std::string>(), job);
+  return IsFinished(text) ? std::optional(ResultOf(text, folder)) : std::nullopt;
 }
 
 std::optional<Resumption> InterruptedRun(const Path& folder, const StudyJob& job) {

@@ -16,7 +16,7 @@ StudyResult ResultOf(const std::string& summary, const std::filesystem::path& fo
 
 // Both throw UsageError where the folder holds a run of another configuration than the job's.
 
-/// Of a run that is complete; none where it has to be run, or run on.
+/// Of a run of which nothing is left to do (IsFinished); none if it has to be run, or run on.
 std::optional<StudyResult> CompleteResult(const std::filesystem::path& folder, const StudyJob& job);
 
 /// Of a run that an interrupted study left; none where it left no checkpoint. Throws UsageError also where

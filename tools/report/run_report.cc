@@ -58,8 +58,8 @@ void FinishedRun::TakeFlights(const Path& folder) {
   }
   if (std::filesystem::exists(folder / "optimum.json")) {
     const Json optimum = Json::parse(ReadFile(folder / "optimum.json"));
-    flights_.push_back({optimum.at("optimal").get<bool>() ? "exact optimum" : "best flight of the search",
-                        FlyActions(world_, optimum.at("actions"))});
+    flights_.push_back(
+        {FoundFlightName(optimum.at("optimal").get<bool>()), FlyActions(world_, optimum.at("actions"))});
   }
   flights_.push_back({"AoI-based", FlyBaseline(world_, BaselineKind::kAoi)});
   flights_.push_back({"distance-based", FlyBaseline(world_, BaselineKind::kDistance)});
@@ -106,13 +106,17 @@ void WriteRunReport(const Path& folder) {
   const FinishedRun run(folder);
   const Json summary = Json::parse(run.summary());
   ReportContents contents;
-  contents.title = "Fresco: a trained policy beside the exact optimum";
+  const bool proved = !summary.at("optimal_average_aoi").is_null();
+  contents.title = "Fresco: a trained policy" + std::string(proved ? " beside the exact optimum" : "");
   contents.summary = fmt::format(
       "{} training episodes, {} updates in {:.0f} s; seed {}, configuration {}, weights {}.{}",
       summary.at("episodes").get<int64_t>(), summary.at("updates").get<int64_t>(),
       summary.at("wall_s").get<double>(), summary.at("seed").get<uint64_t>(),
       summary.at("config_hash").get<std::string>(), summary.at("weights_crc32c").get<std::string>(),
       summary.at("completed").get<bool>() ? "" : " The run was interrupted before its end.");
+  if (const std::string note = OptimumNote(run.summary()); !note.empty()) {
+    contents.summary += " " + note;
+  }
   contents.tables = {PolicyTable(run.summary())};
   if (!run.learning_curve().points.empty()) {
     try {

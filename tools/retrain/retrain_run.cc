@@ -31,9 +31,11 @@ std::string ProgressText(const Trainer& trainer, int64_t episodes, double wall_s
 
 void WaitForEnd(OptimumSearch& optimum, LiveLine& line) {
   constexpr int64_t kReportUs = 200'000;
+  optimum.TakeFullPriority();
   while (!StopSignal::Requested() && !optimum.WaitForEnd(kReportUs)) {
-    line.Show(fmt::format("trained; the search for the exact optimum goes on for {:.0f} s at most",
-                          optimum.seconds_left()));
+    line.Show(fmt::format(
+        "trained; waiting for the proof of the exact optimum: {:.0f} s of processor time more at most",
+        optimum.processor_seconds_left()));
   }
 }
 
@@ -84,18 +86,18 @@ std::string RetrainRun::Train(const std::filesystem::path& directory) {
   }
   optimum.Stop();
   report_.counts = retraining_->counts();
-  return Results(wall_s, optimum.plan());
+  return Results(wall_s, optimum.result());
 }
 
-std::string RetrainRun::Results(double wall_s, std::shared_ptr<const Plan> plan) {
+std::string RetrainRun::Results(double wall_s, const OptimumResult& optimum) {
   const Trainer& trainer = retraining_->trainer();
-  if (plan != nullptr) {
-    folder_->WriteOptimum(OptimumJson(world_, *plan));
+  if (optimum.plan != nullptr) {
+    folder_->WriteOptimum(OptimumJson(world_, *optimum.plan));
   }
   folder_->WriteFinal(trainer.current(), trainer.progress());
   folder_->Finish();
   const std::string summary = WithRetrainReport(
-      SummaryJson({experiment_, world_, DrawIdentifier(), completed_, wall_s, trainer, {}, std::move(plan)}),
+      SummaryJson({experiment_, world_, DrawIdentifier(), completed_, wall_s, trainer, {}, optimum}),
       report_);
   folder_->WriteSummary(summary);
   return summary;

@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
+#include "learner/optimum_search.h"
 #include "learner/run_folder.h"
 #include "learner/trainer.h"
 #include "msgs/experiment.h"
 #include "tools/retrain/retrain_report.h"
-#include "uav/planner.h"
 
 namespace fresco {
 
@@ -34,7 +34,7 @@ class RetrainRun {
 
  private:
   void TakeEvaluation(const Trainer& trainer, const Evaluation& evaluation);
-  std::string Results(double wall_s, std::shared_ptr<const Plan> plan);
+  std::string Results(double wall_s, const OptimumResult& optimum);
 
   Experiment experiment_;
   World world_;

@@ -52,9 +52,9 @@ final class LearnerFacts {
   private void showQuality(learner_status_t status) {
     boolean bounded = status.optimum_proved == 0 && Double.isFinite(status.lower_bound_average_aoi);
     numbers.set("best average AoI", Text.orDash("%.3f slots", status.best_average_aoi));
-    numbers.set(
-        "optimum", (bounded ? "above " : "") + Text.orDash("%.3f slots", status.lower_bound_average_aoi));
-    numbers.set("gap", (bounded ? "at most " : "") + Text.orDash("%.2f %%", status.gap_percent));
+    numbers.set("optimum",
+        (bounded ? "not proved, at least " : "") + Text.orDash("%.3f slots", status.lower_bound_average_aoi));
+    numbers.set("gap", bounded ? "not proved" : Text.orDash("%.2f %%", status.gap_percent));
     numbers.set("loss", Text.orDash("%.3g", status.loss));
   }
 

@@ -17,14 +17,14 @@ final class LearnerWindow extends Window {
       new Curves("Loss: mean squared temporal-difference error", "training episodes", "loss");
   private final Curves aoi =
       new Curves("Average AoI of greedy flights", "training episodes", "average AoI, slots");
-  private final Curves gap =
-      new Curves("Gap of the best flight to the optimum, or to its bound until it is proved",
-          "training episodes", "gap, %");
+  private final Curves gap = new Curves(
+      "Gap of the best flight to the exact optimum, once that is proved", "training episodes", "gap, %");
   private final Curves rates = new Curves("Rates", "training episodes", "a second");
   private final ITrace2D lossTrace = loss.add("loss", Palette.ACCENT, 1.6);
   private final ITrace2D lastTrace = aoi.add("last evaluation", Palette.series(5), 1.2);
   private final ITrace2D bestTrace = aoi.add("best so far", Palette.series(0), 2.2);
-  private final ITrace2D boundTrace = aoi.add("optimum, or a lower bound of it", Palette.series(2), 1.8);
+  private final ITrace2D boundTrace = aoi.add("lower bound of the optimum", Palette.series(3), 1.2);
+  private final ITrace2D optimumTrace = aoi.add("exact optimum", Palette.series(2), 1.8);
   private final ITrace2D gapTrace = gap.add("gap", Palette.HIGHLIGHT, 1.8);
   private final ITrace2D transitionsTrace = rates.add("transitions", Palette.series(0), 1.6);
   private final ITrace2D updatesTrace = rates.add("updates", Palette.series(1), 1.6);
@@ -61,8 +61,9 @@ final class LearnerWindow extends Window {
     if (hearing == RunFollower.Hearing.NEW || (last != null && status.episodes < last.episodes)) {
       begin(status); // a new run, or one that goes on from a checkpoint
     }
+    boolean justProved = last != null && last.optimum_proved == 0 && status.optimum_proved != 0;
     last = status;
-    if (status.episodes >= nextPoint) {
+    if (status.episodes >= nextPoint || justProved) { // the proof may come after the last episode
       nextPoint = status.episodes + Math.max(1, status.total_episodes / POINTS_A_RUN);
       addPoints(status);
     }
@@ -78,7 +79,11 @@ final class LearnerWindow extends Window {
     add(lossTrace, status.updates > 0 ? status.loss : Double.NaN, status);
     add(lastTrace, status.average_aoi, status);
     add(bestTrace, status.best_average_aoi, status);
-    add(boundTrace, status.lower_bound_average_aoi, status);
+    boolean proved = status.optimum_proved != 0;
+    if (proved && optimumTrace.isEmpty() && Double.isFinite(status.lower_bound_average_aoi)) {
+      optimumTrace.addPoint(0, status.lower_bound_average_aoi); // it is that of the whole run
+    }
+    add(proved ? optimumTrace : boundTrace, status.lower_bound_average_aoi, status);
     add(gapTrace, status.gap_percent, status);
     add(transitionsTrace, status.transitions_per_s, status);
     add(updatesTrace, status.updates_per_s, status);
