@@ -10,14 +10,14 @@
 #include <optional>
 #include <string>
 
-#include "actors/flyer.h"
 #include "actors/network_store.h"
-#include "actors/run_announcements.h"
 #include "bus/bus.h"
 #include "core/attentive_clock.h"
 #include "core/clock.h"
 #include "msgs/channels.h"
 #include "msgs/key_mismatch.h"
+#include "msgs/run_announcements.h"
+#include "training/flyer.h"
 
 namespace fresco {
 

@@ -16,15 +16,15 @@
 
 #include "bus/bus.h"
 #include "core/attentive_clock.h"
-#include "learner/bus_counters.h"
-#include "learner/ledger.h"
-#include "learner/optimum_search.h"
 #include "learner/roster.h"
 #include "learner/starvation_warning.h"
-#include "learner/trainer.h"
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
 #include "msgs/key_mismatch.h"
+#include "runs/bus_counters.h"
+#include "runs/optimum_search.h"
+#include "training/ledger.h"
+#include "training/trainer.h"
 
 namespace fresco {
 

@@ -9,10 +9,10 @@
 
 #include "bus/bus.h"
 #include "learner/learner_node.h"
-#include "learner/optimum_search.h"
-#include "learner/run_folder.h"
-#include "learner/summary.h"
-#include "learner/trainer.h"
+#include "runs/optimum_search.h"
+#include "runs/run_folder.h"
+#include "runs/summary.h"
+#include "training/trainer.h"
 
 namespace fresco {
 

@@ -13,9 +13,9 @@
 #include "core/signals.h"
 #include "core/version.h"
 #include "learner/learner_process.h"
-#include "learner/resumption.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
+#include "runs/resumption.h"
 
 namespace fresco {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "learner/ledger.h"
 #include "msgs/wire.h"
+#include "training/ledger.h"
 
 namespace fresco {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "msgs/wire.h"
-#include "uav/environment.h"
-#include "uav/world.h"
+#include "worlds/uav/environment.h"
+#include "worlds/uav/world.h"
 
 namespace fresco {
 

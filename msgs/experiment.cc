@@ -14,8 +14,8 @@
 #include "msgs/config_reflection.h"
 #include "msgs/field_names.h"
 #include "msgs/wire.h"
-#include "uav/radio.h"
-#include "uav/world.h"
+#include "worlds/uav/radio.h"
+#include "worlds/uav/world.h"
 
 namespace fresco {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "msgs/proto/experiment.pb.h"
 #include "nn/mlp.h"
-#include "uav/environment.h"
-#include "uav/network_input.h"
-#include "uav/scenario.h"
+#include "worlds/uav/environment.h"
+#include "worlds/uav/network_input.h"
+#include "worlds/uav/scenario.h"
 
 namespace fresco {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "msgs/wire.h"
-#include "uav/scenario.h"
+#include "worlds/uav/scenario.h"
 
 namespace fresco {
 

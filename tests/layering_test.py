@@ -6,25 +6,34 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# In dependency order: a room may include only rooms above it, and of these only the ones listed.
 ALLOWED = {
     "core": set(),
     "nn": {"core"},
-    "uav": {"core"},
+    "worlds": {"core"},
+    "planner": {"core", "worlds"},
     "bus": {"core"},
-    "msgs": {"core", "nn", "uav", "bus"},
-    "actors": {"core", "nn", "uav", "bus", "msgs"},
-    "learner": {"core", "nn", "uav", "bus", "msgs"},
-    "tools": {"core", "nn", "uav", "bus", "msgs", "actors", "learner"},
+    "msgs": {"core", "nn", "worlds", "bus"},
+    "training": {"core", "nn", "worlds", "msgs"},
+    "runs": {"core", "nn", "worlds", "planner", "msgs", "training"},
+    "actors": {"core", "nn", "worlds", "bus", "msgs", "training"},
+    "learner": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs"},
+    "logs": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs"},
+    "processes": {"core", "bus", "msgs", "runs"},
+    "report": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs", "processes"},
+    "soak": {"core", "bus", "msgs", "runs", "processes", "report"},
+    "tools": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs", "actors", "learner", "logs",
+              "processes", "report", "soak"},
 }
 # Libraries that only some rooms may see.
 RESERVED = {
-    "lcm/": {"bus"},
+    "lcm/": {"bus", "logs"},
     "sodium": {"bus"},
     "Eigen/": {"nn"},
     "google/protobuf/": {"msgs"},
-    "nlohmann/": {"learner", "tools"},
+    "nlohmann/": {"runs", "logs", "processes", "report", "soak", "tools"},
 }
-PURE = {"nn", "uav"}  # no input or output, no clock, no random numbers but the counter-based ones
+PURE = {"nn", "worlds", "planner", "training"}  # no input or output, no clock, no random numbers but the counter-based ones
 IMPURE = re.compile(r"#include <(iostream|fstream|cstdio|chrono|random|thread|filesystem|unistd\.h)>")
 
 

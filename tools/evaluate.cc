@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "core/signals.h"
-#include "tools/flight_json.h"
-#include "tools/flown_policy.h"
+#include "report/flight_json.h"
+#include "runs/flown_policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

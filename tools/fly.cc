@@ -11,12 +11,12 @@
 #include "core/clock.h"
 #include "core/identifier.h"
 #include "core/installation.h"
+#include "core/live_line.h"
 #include "core/signals.h"
 #include "msgs/channels.h"
+#include "msgs/flight_messages.h"
 #include "msgs/scenario_codec.h"
-#include "tools/flight_messages.h"
-#include "tools/flown_policy.h"
-#include "tools/live_line.h"
+#include "runs/flown_policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

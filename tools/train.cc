@@ -8,16 +8,16 @@
 #include "bus/command_line.h"
 #include "core/command_line.h"
 #include "core/installation.h"
+#include "core/live_line.h"
 #include "core/signals.h"
-#include "learner/summary.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
-#include "tools/live_line.h"
-#include "tools/new_run_folder.h"
-#include "tools/report/run_report.h"
+#include "processes/training_run.h"
+#include "report/run_report.h"
+#include "report/train_display.h"
+#include "runs/new_run_folder.h"
+#include "runs/summary.h"
 #include "tools/subcommands.h"
-#include "tools/train_display.h"
-#include "tools/training_run.h"
 
 namespace fresco {
 namespace {

@@ -11,7 +11,7 @@
 #include "bus/bus.h"
 #include "msgs/channels.h"
 #include "msgs/episode.h"
-#include "tests/actors/acting_samples.h"
+#include "tests/training/acting_samples.h"
 
 namespace fresco {
 

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "bus/event_log_writer.h"
-#include "bus/merged_event_logs.h"
+#include "logs/event_log_writer.h"
+#include "logs/log_summary.h"
+#include "logs/merged_event_logs.h"
 #include "tests/msgs/message_samples.h"
-#include "tools/log/log_summary.h"
 
 namespace fresco {
 namespace {

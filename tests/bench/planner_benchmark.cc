@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "uav/planner.h"
+#include "planner/planner.h"
 
 namespace fresco {
 namespace {

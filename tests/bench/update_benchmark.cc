@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/random.h"
-#include "learner/dqn.h"
-#include "learner/replay_memory.h"
+#include "training/dqn.h"
+#include "training/replay_memory.h"
 
 namespace fresco {
 namespace {

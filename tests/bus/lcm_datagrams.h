@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/bus/event_log_files.h"
+#include "tests/logs/event_log_files.h"
 
 namespace fresco {
 

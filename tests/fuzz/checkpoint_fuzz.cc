@@ -1,8 +1,8 @@
 // A checkpoint, as it is and with a CRC that holds. What is accepted is written again as the same.
 #include "core/check.h"
 #include "core/crc32c.h"
-#include "msgs/checkpoint_file.h"
 #include "msgs/proto/checkpoint.pb.h"
+#include "runs/checkpoint_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {

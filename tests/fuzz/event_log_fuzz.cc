@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "bus/event_log_reader.h"
 #include "core/check.h"
+#include "logs/event_log_reader.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {

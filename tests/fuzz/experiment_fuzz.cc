@@ -5,7 +5,7 @@
 #include "core/check.h"
 #include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
-#include "uav/environment.h"
+#include "worlds/uav/environment.h"
 
 namespace fresco {
 namespace {

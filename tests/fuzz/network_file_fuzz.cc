@@ -1,8 +1,8 @@
 // A network file, as it is and with a CRC that holds. What is accepted is written again as the same.
 #include "core/check.h"
 #include "core/crc32c.h"
-#include "msgs/network_file.h"
 #include "msgs/proto/network.pb.h"
+#include "runs/network_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {

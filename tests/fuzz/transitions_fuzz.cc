@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "learner/episode_check.h"
-#include "learner/ledger.h"
 #include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "training/episode_check.h"
+#include "training/ledger.h"
 
 namespace fresco {
 namespace {

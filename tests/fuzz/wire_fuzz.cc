@@ -1,11 +1,11 @@
 // Decode of every message type. The first byte chooses the type and whether the rest has a trailer of its
 // own or gets the right one here. What decodes must encode to the same bytes again, and looks the same to
 // those who only peek; what nobody signed is not authentic.
-#include "actors/run_announcements.h"
 #include "bus/authenticated_bus.h"
 #include "core/check.h"
 #include "msgs/message_peek.h"
 #include "msgs/order.h"
+#include "msgs/run_announcements.h"
 #include "msgs/weights_codec.h"
 #include "tests/fuzz/fuzz_input.h"
 

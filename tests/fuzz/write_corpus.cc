@@ -8,14 +8,14 @@
 #include <set>
 #include <string>
 
-#include "bus/event_log_writer.h"
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "msgs/checkpoint_file.h"
+#include "logs/event_log_writer.h"
 #include "msgs/episode.h"
-#include "msgs/network_file.h"
+#include "runs/checkpoint_file.h"
+#include "runs/network_file.h"
 #include "tests/msgs/message_samples.h"
-#include "uav/environment.h"
+#include "worlds/uav/environment.h"
 
 namespace fresco {
 namespace {

@@ -3,7 +3,7 @@
 #include "bus/authenticated_bus.h"
 #include "msgs/episode.h"
 #include "msgs/order.h"
-#include "tests/learner/literal_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 

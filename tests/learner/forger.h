@@ -6,7 +6,7 @@
 #include "msgs/channels.h"
 #include "msgs/experiment.h"
 #include "msgs/wire.h"
-#include "uav/world.h"
+#include "worlds/uav/world.h"
 
 namespace fresco {
 

@@ -8,7 +8,7 @@
 
 #include "core/clock.h"
 #include "msgs/current_run.h"
-#include "tests/learner/literal_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "learner/roster.h"
-#include "tests/learner/literal_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 

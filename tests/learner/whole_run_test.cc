@@ -11,12 +11,12 @@
 #include "core/clock.h"
 #include "learner/learner_node.h"
 #include "tests/learner/forger.h"
-#include "tests/learner/literal_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 namespace {
 
-constexpr int64_t kRunId = 77;
+constexpr int64_t kWholeRunId = 77;
 
 struct Disturbance {
   int actors = 1;
@@ -43,7 +43,7 @@ class WholeRun : public ::testing::Test {
   /// A learner as far as it lives in its process's memory.
   struct Learner {
     Learner(WholeRun& test, Bus& bus)
-        : node(test.experiment_, test.world_, kRunId, bus, ChannelsWithPrefix("TEST")),
+        : node(test.experiment_, test.world_, kWholeRunId, bus, ChannelsWithPrefix("TEST")),
           trainer(test.experiment_, test.world_, test.OutputTo(node)) {}
     LearnerNode node;
     Trainer trainer;
@@ -171,7 +171,7 @@ TEST_F(WholeRun, SaysThatItWaitsAmongProgramsWithAnotherKey) {
   const auto memory = OpenLcmBus("memq://");
   const auto keyed = Authenticated(*memory);
   const Channels channels = ChannelsWithPrefix("TEST");
-  LearnerNode node(experiment_, world_, kRunId, *keyed, channels);
+  LearnerNode node(experiment_, world_, kWholeRunId, *keyed, channels);
   node.WriteOrder({});
   EXPECT_FALSE(node.WaitForNext(0).has_value());
   EXPECT_EQ(node.WaitingFor(), "an actor to join");

@@ -1,0 +1,93 @@
+// What stands in logs, gathered in one pass: channels, runs, episodes, actors, gaps. It decodes no more than
+// it needs; networks not at all. Its memory does not depend on the size of the logs. Pure; an object belongs
+// to one thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "bus/lcm_event.h"
+#include "logs/episode_coverage.h"
+#include "logs/interval_set.h"
+#include "msgs/message_decoder.h"
+#include "msgs/message_peek.h"
+
+namespace fresco {
+
+struct ChannelTraffic {
+  std::string type;  ///< "run_t"; "foreign" and the fingerprint; "mixed"
+  int64_t events = 0;
+  int64_t message_bytes = 0;
+  int64_t damaged = 0;  ///< begin as one of Fresco's and do not decode; networks are not looked into
+};
+
+struct RunTraffic {
+  uint32_t config_hash = 0;
+  IntervalSet config_parts{1024};
+  int32_t config_part_count = 0;  ///< 0: no run_t was there
+  bool finished = false;          ///< the learner has said so
+  std::optional<int64_t> first_order;
+  int64_t last_order = -1;
+  int64_t committed_orders = 0;
+  EpisodeCoverage episodes;
+  std::set<int64_t> actors;                        ///< that flew for it
+  std::optional<learner_status_t> learner_status;  ///< the last one
+
+  bool config_known() const { return config_part_count > 0 && config_parts.count() == config_part_count; }
+  /// Orders of which not one transition is there.
+  int64_t orders_without_transitions() const;
+};
+
+struct ActorTraffic {
+  std::string host;
+  int32_t pid = 0;
+  int64_t statuses = 0;
+  IntervalSet sequences{1024};  ///< the numbers of its statuses: what is missing was lost
+};
+
+class LogSummary {
+ public:
+  void Take(const LcmEvent& event);
+
+  int64_t events() const { return events_; }
+  /// Times of the first and the last event, in microseconds since the epoch; 0 where there is none.
+  int64_t begin_utime() const { return begin_utime_; }
+  int64_t end_utime() const { return end_utime_; }
+  double duration_s() const { return 1e-6 * static_cast<double>(end_utime_ - begin_utime_); }
+  const std::map<std::string, ChannelTraffic, std::less<>>& channels() const { return channels_; }
+  const std::map<int64_t, RunTraffic>& runs() const { return runs_; }
+  const std::map<int64_t, ActorTraffic>& actors() const { return actors_; }
+  int64_t foreign_messages() const { return foreign_; }
+  int64_t damaged_messages() const { return damaged_; }
+  /// Messages of channels, runs or actors beyond the 4,096 that are told apart.
+  int64_t beyond_limits() const { return beyond_limits_; }
+
+ private:
+  ChannelTraffic* ChannelOf(std::string_view name);
+  template <class Record>
+  Record* RecordOf(std::map<int64_t, Record>& records, int64_t id);
+  bool TakeMessage(std::span<const std::byte> message);
+  void Take(const TransitionsHeader& header);
+  void Take(const run_t& message);
+  void Take(const orders_t& message);
+  void Take(const actor_status_t& message);
+  void Take(const learner_status_t& message);
+  template <class Message>
+  void Take(const Message&) {}  // says nothing of runs or actors
+
+  int64_t events_ = 0;
+  int64_t begin_utime_ = 0;
+  int64_t end_utime_ = 0;
+  std::map<std::string, ChannelTraffic, std::less<>> channels_;
+  std::map<int64_t, RunTraffic> runs_;
+  std::map<int64_t, ActorTraffic> actors_;
+  int64_t foreign_ = 0;
+  int64_t damaged_ = 0;
+  int64_t beyond_limits_ = 0;
+  MessageDecoder decoder_;
+};
+
+}  // namespace fresco

@@ -1,0 +1,96 @@
+#include "logs/logged_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+
+#include "core/error.h"
+#include "msgs/run_announcements.h"
+
+namespace fresco {
+namespace {
+
+/// Runs by their identity, in the order in which they appear.
+class Runs {
+ public:
+  void Take(const run_t& message) {
+    Entry& entry = Of(IdentityOf(message));
+    entry.run.protocol_version = message.protocol_version;
+    entry.run.arithmetic_fingerprint = message.arithmetic_fingerprint;
+    if (!entry.run.config_text) {
+      entry.run.config_text = entry.announcements.Add(message);
+    }
+  }
+  void Take(const transitions_t& message) { ++Of(IdentityOf(message)).run.transitions_messages; }
+
+  std::vector<LoggedRun> All() && {
+    std::vector<LoggedRun> runs;
+    std::transform(entries_.begin(), entries_.end(), std::back_inserter(runs),
+                   [](Entry& entry) { return std::move(entry.run); });
+    return runs;
+  }
+
+ private:
+  struct Entry {
+    LoggedRun run;
+    RunAnnouncements announcements = {};
+  };
+
+  Entry& Of(RunIdentity identity) {
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [&](const Entry& entry) { return entry.run.identity == identity; });
+    return found != entries_.end() ? *found : entries_.emplace_back(Entry{{identity}});
+  }
+
+  std::deque<Entry> entries_;
+};
+
+}  // namespace
+
+std::string RunIdText(const LoggedRun& run) {
+  return fmt::format("{:016x}", static_cast<uint64_t>(run.identity.run_id));
+}
+
+std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
+  Runs runs;
+  LogMessages messages(source);
+  run_t run{};
+  transitions_t transitions{};
+  while (const auto message = messages.Next()) {
+    if (message->DecodeAs(run)) {
+      runs.Take(run);
+    } else if (message->DecodeAs(transitions)) {
+      runs.Take(transitions);
+    }
+  }
+  return std::move(runs).All();
+}
+
+LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id) {
+  std::string known;
+  for (const LoggedRun& run : runs) {
+    if (run_id.empty() ? runs.size() == 1 : RunIdText(run) == run_id) {
+      return run;
+    }
+    known += fmt::format("\n  {} (configuration {:08x}, {} messages of transitions)", RunIdText(run),
+                         run.identity.config_hash, run.transitions_messages);
+  }
+  throw UsageError(runs.empty() ? "no run of Fresco is in the log"
+                   : run_id.empty()
+                       ? fmt::format("several runs are in the log; name one with --run ID:{}", known)
+                       : fmt::format("--run: no run {} is in the log, but{}", run_id, known));
+}
+
+void ExpectOrdersOfThisRelease(const LoggedRun& run) {
+  if (run.protocol_version && *run.protocol_version != kProtocolVersion) {
+    throw UsageError(fmt::format(
+        "run {} was recorded with protocol version {}, this program has version {}: its orders mean other "
+        "episodes here, so the same weights can't come out; use the release that recorded it, or train "
+        "another agent on its episodes (another schedule or agent, with --set)",
+        RunIdText(run), *run.protocol_version, kProtocolVersion));
+  }
+}
+
+}  // namespace fresco

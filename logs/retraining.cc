@@ -1,0 +1,128 @@
+#include "logs/retraining.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/check.h"
+#include "core/crc32c.h"
+#include "core/error.h"
+#include "training/episode_check.h"
+
+namespace fresco {
+
+Retraining::Retraining(const Experiment& experiment, const World& world, LoggedEpisodes& episodes, Use use,
+                       bool strict, EvaluationHandler evaluated)
+    : experiment_(experiment),
+      world_(&world),
+      episodes_(&episodes),
+      use_(use),
+      strict_(strict),
+      flyer_(world, experiment, static_cast<int>(MaximumOrdersInFlight(experiment.schedule().window()))),
+      trainer_(experiment, world, Output(std::move(evaluated))) {
+  if (use == Use::kExperience) {
+    const std::vector<int64_t> training = episodes.Training();
+    experience_.assign(training.begin(), training.end());
+    const auto recorded = static_cast<int64_t>(experience_.size());
+    if (recorded < experiment.schedule().episodes()) {
+      throw UsageError(fmt::format(
+          "schedule.episodes is {}, and the log holds {} whole training episodes: record a longer "
+          "run, or train on what there is with --set schedule.episodes={}",
+          experiment.schedule().episodes(), recorded, recorded));
+    }
+  }
+  trainer_.Begin();
+}
+
+TrainerOutput Retraining::Output(EvaluationHandler evaluated) {
+  TrainerOutput output;
+  output.order = [this](const Order& order) { TakeOrder(order); };
+  output.version = [this](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
+    TakeVersion(kind, version, std::move(parameters));
+  };
+  output.evaluation = [this, evaluated = std::move(evaluated)](const Evaluation& evaluation) {
+    evaluated(trainer_, evaluation);
+  };
+  return output;
+}
+
+void Retraining::TakeVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
+  if (use_ == Use::kSameRun) {
+    if (const auto recorded = episodes_->WeightsCrc(kind, version)) {
+      const std::span values(parameters->data(), static_cast<size_t>(parameters->size()));
+      ++counts_.compared_versions;
+      if (Crc32c(values) != *recorded && counts_.different_versions++ == 0) {
+        counts_.first_different_version = version;
+      }
+    }
+  }
+  (kind == NetworkKind::kCurrent ? current_ : target_) = std::move(parameters);
+}
+
+bool Retraining::IsRecorded(const Order& order) const {
+  return use_ == Use::kSameRun ? episodes_->whole().contains(order.index) : order.kind == OrderKind::kTrain;
+}
+
+void Retraining::TakeOrder(const Order& order) {
+  const bool is_recorded = IsRecorded(order);
+  if (!is_recorded) {
+    if (strict_ && use_ == Use::kSameRun) {
+      throw Failure(
+          fmt::format("--strict: the log misses the episode of order {}; without --strict it is flown again",
+                      order.index));
+    }
+    flyer_.Start(order, current_, target_);
+  }
+  pending_.push_back({order, !is_recorded});
+}
+
+bool Retraining::Step() {
+  if (pending_.empty()) {
+    return false;
+  }
+  const Episode episode = EpisodeOf(pending_.front());
+  const Order order = pending_.front().order;
+  pending_.pop_front();
+  trainer_.Commit(order, episode);
+  return true;
+}
+
+Episode Retraining::EpisodeOf(const PendingOrder& pending) {
+  if (pending.is_flown) {
+    ++(use_ == Use::kSameRun ? counts_.flown_again : counts_.evaluations_flown);
+    return WaitForFlight(pending);
+  }
+  ++counts_.recorded_episodes;
+  return use_ == Use::kSameRun ? episodes_->Take(pending.order.index) : NextExperience(pending.order.index);
+}
+
+/// Flies on until the flight of this order, the first that is pending, has ended.
+Episode Retraining::WaitForFlight(const PendingOrder& pending) {
+  while (!pending.flown) {
+    flyer_.Step([this](const Order& order, const Episode& episode) {
+      const int64_t place = order.index - pending_.front().order.index;
+      pending_[static_cast<size_t>(place)].flown = episode;
+    });
+  }
+  return *pending.flown;
+}
+
+/// The next recorded training episode that is possible under this agent's masks, as that of an order of it.
+Episode Retraining::NextExperience(int64_t order_index) {
+  Episode episode;
+  while (!experience_.empty()) {
+    const Episode recorded = episodes_->Take(experience_.front());
+    experience_.pop_front();
+    if (FlyActions(*world_, experiment_.mask_options(), recorded.actions, episode)) {
+      episode.order_index = order_index;
+      return episode;
+    }
+    ++counts_.left_out;
+  }
+  throw Failure(fmt::format(
+      "the recorded experience has run out after {} episodes: {} more hold actions that the masks of this "
+      "configuration (agent.safe_action_mask, agent.coverage_mask) do not allow",
+      counts_.recorded_episodes - 1, counts_.left_out));
+}
+
+}  // namespace fresco

@@ -1,0 +1,198 @@
+#include "report/flight_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/check.h"
+
+namespace fresco {
+namespace {
+
+constexpr int kWidthPx = 800;
+constexpr int kColourBarPx = 116;
+
+/// A place on the map, in cells.
+struct Point {
+  double column = 0;
+  double row = 0;
+};
+
+/// The shift of a slot, the same in columns and rows: back at slot 1, on at slot T.
+double Shift(const World& world, int slot) {
+  constexpr double kLargestShift = 0.3;
+  const double last = std::max(world.scenario().slots - 1, 1);
+  return kLargestShift * (2 * (slot - 1) / last - 1);
+}
+
+Point Shifted(const World& world, Cell cell, int slot) {
+  const double shift = Shift(world, slot);
+  return {cell.column + shift, cell.row + shift};
+}
+
+Point SensorPoint(const World& world, int sensor) {
+  const Sensor& position = world.scenario().sensors[static_cast<size_t>(sensor)];
+  return {position.x_m / world.scenario().cell_m, position.y_m / world.scenario().cell_m};
+}
+
+struct SensorColours {
+  const char* disc;
+  const char* number;  ///< on the disc
+};
+
+/// First the colours that the path has not; with more sensors the numbers alone tell them apart.
+SensorColours ColoursOf(int sensor) {
+  constexpr const char* kWhite = "#FFFFFF";
+  constexpr std::array<SensorColours, 8> kColours = {{{colour::kVermillion, kWhite},
+                                                      {colour::kBlue, kWhite},
+                                                      {colour::kOrange, colour::kBlack},
+                                                      {colour::kPurple, colour::kBlack},
+                                                      {colour::kSkyBlue, colour::kBlack},
+                                                      {colour::kBlack, kWhite},
+                                                      {colour::kGreen, kWhite},
+                                                      {colour::kGrey, kWhite}}};
+  return kColours[static_cast<size_t>(sensor) % kColours.size()];
+}
+
+/// "#RRGGBB" as the number that gnuplot reads from data.
+std::string ColourNumber(const char* colour) {
+  return fmt::format("0x{}", colour + 1);
+}
+
+/// column, row, slot
+std::string PathData(const World& world, const Flight& flight) {
+  std::string script = "$path << END\n";
+  for (const FlightSlot& slot : flight.slots) {
+    const Point point = Shifted(world, slot.state.cell, slot.state.slot);
+    script += fmt::format("{} {} {}\n", point.column, point.row, slot.state.slot);
+  }
+  return script + "END\n";
+}
+
+/// column, row, the way from there to the sensor, its colour
+std::string CollectionData(const World& world, const Flight& flight) {
+  std::string script = "$collections << END\n";
+  for (const FlightSlot& slot : flight.slots) {
+    const int sensor = slot.action.schedule - 1;
+    if (sensor >= 0 && world.Covers(slot.state.cell, sensor)) {
+      const Point from = Shifted(world, slot.state.cell, slot.state.slot);
+      const Point to = SensorPoint(world, sensor);
+      script += fmt::format("{} {} {} {} {}\n", from.column, from.row, to.column - from.column,
+                            to.row - from.row, ColourNumber(ColoursOf(sensor).disc));
+    }
+  }
+  return script + "END\n";
+}
+
+/// column, row, radius, number, colour of the disc and of the number
+std::string SensorData(const World& world) {
+  const double radius = world.scenario().coverage_radius_m / world.scenario().cell_m;
+  std::string script = "$sensors << END\n";
+  for (int sensor = 0; sensor < world.sensors(); ++sensor) {
+    const Point point = SensorPoint(world, sensor);
+    const SensorColours colours = ColoursOf(sensor);
+    script += fmt::format("{} {} {} {} {} {}\n", point.column, point.row, radius, sensor + 1,
+                          ColourNumber(colours.disc), ColourNumber(colours.number));
+  }
+  return script + "END\n";
+}
+
+/// Start and stop, where a path through all slots has its ends.
+std::string EndData(const World& world) {
+  const Scenario& scenario = world.scenario();
+  const Point start = Shifted(world, scenario.start, 1);
+  const Point stop = Shifted(world, scenario.stop, scenario.slots);
+  return fmt::format("$start << END\n{} {}\nEND\n$stop << END\n{} {}\nEND\n", start.column, start.row,
+                     stop.column, stop.row);
+}
+
+constexpr const char* kBlackLine = "linecolor rgb '#000000'";
+constexpr const char* kStartPoint = "pointtype 9 pointsize 1.2";
+constexpr const char* kStopPoint = "pointtype 5 pointsize 0.9";
+
+/// From the lowest layer to the highest. 0x60000000 makes a colour a third transparent.
+std::string PlotCommand(bool collections) {
+  const std::string lines =
+      "  $collections using 1:2:3:4:($5+0x60000000) with vectors nohead linewidth 0.8 linecolor rgb "
+      "variable, \\\n";
+  const std::string dots =
+      "  $collections using 1:2 with points pointtype 7 pointsize 0.55 linecolor rgb '#FFFFFF', \\\n"
+      "  $collections using 1:2:5 with points pointtype 7 pointsize 0.4 linecolor rgb variable, \\\n";
+  return fmt::format(
+      "plot $sensors using 1:2:3:5 with circles linecolor rgb variable fillstyle transparent solid 0.08 "
+      "noborder, \\\n"
+      "  $sensors using 1:2:3:5 with circles linecolor rgb variable linewidth 1 fillstyle empty border, "
+      "\\\n{}"
+      "  $path using 1:2 with lines linewidth 5 linecolor rgb '#FFFFFF', \\\n"
+      "  $path using 1:2:3 with lines linewidth 3 linecolor palette, \\\n{}"
+      "  $start with points {} {}, \\\n  $stop with points {} {}, \\\n"
+      "  $sensors using 1:2:5 with points pointtype 7 pointsize 1.6 linecolor rgb variable, \\\n"
+      "  $sensors using 1:2:4:6 with labels textcolor rgb variable\n",
+      collections ? lines : "", collections ? dots : "", kBlackLine, kStartPoint, kBlackLine, kStopPoint);
+}
+
+/// So many cells between tics that there are at most eleven of them.
+int TicStep(int cells) {
+  int step = 1;
+  for (const int larger : {2, 5, 10, 20, 50, 100, 200, 500, 1000}) {
+    step = (cells - 1) / step > 10 ? larger : step;
+  }
+  return step;
+}
+
+/// Thin lines between the cells hang on the tics of the second axes, which have no other use.
+std::string CellScript(int columns, int rows) {
+  constexpr int kMostCells = 60;  // beyond it the lines would be all that is seen
+  if (std::max(columns, rows) > kMostCells) {
+    return "";
+  }
+  return fmt::format(
+      "set x2range [-0.5:{}]\nset y2range [-0.5:{}]\n"
+      "set x2tics -0.5,1 format '' scale 0\nset y2tics -0.5,1 format '' scale 0\n"
+      "set grid noxtics noytics x2tics y2tics back linetype 1 linewidth 0.6 linecolor rgb '{}'\n",
+      columns - 0.5, rows - 0.5, colour::kGrid);
+}
+
+std::string AxesScript(const World& world) {
+  const int columns = world.scenario().columns;
+  const int rows = world.scenario().rows;
+  return fmt::format("set border 15 linewidth 1 linecolor rgb '{}'\n", colour::kText) +
+         fmt::format("set size ratio -1\nset xrange [-0.5:{}]\nset yrange [-0.5:{}]\n", columns - 0.5,
+                     rows - 0.5) +
+         fmt::format("set xtics 0,{}\nset ytics 0,{}\n", TicStep(columns), TicStep(rows)) +
+         CellScript(columns, rows) +
+         // Viridis without its yellow end, which is lost on white.
+         "set palette defined (0 '#440154', 1 '#414487', 2 '#2A788E', 3 '#22A884', 4 '#7AD151', 5 "
+         "'#BBDF27')\n" +
+         fmt::format("set cbrange [1:{}]\n", std::max(world.scenario().slots, 2));
+}
+
+Legend MapLegend() {
+  return Legend(
+      {{"start", kBlackLine, "", kStartPoint},
+       {"stop", kBlackLine, "", kStopPoint},
+       {"path", "linecolor rgb '#2A788E'", "linewidth 3", ""},
+       {"collection, with a line to its sensor", kBlackLine, "linewidth 0.8", "pointtype 7 pointsize 0.4"}},
+      kWidthPx);
+}
+
+}  // namespace
+
+Picture DrawFlightMap(const std::string& title, const World& world, const Flight& flight) {
+  FRESCO_CHECK(!flight.slots.empty());
+  const Legend legend = MapLegend();
+  const Frame frame{
+      .title = title, .x_label = "column", .y_label = "row", .right_label = "slot", .right_px = kColourBarPx};
+  const int map_width_px = kWidthPx - frame.left_px - frame.right_px;
+  const int map_height_px =
+      std::clamp(map_width_px * world.scenario().rows / world.scenario().columns, 200, 1000);
+  Picture picture{kWidthPx, frame.top_px + map_height_px + frame.bottom_px + legend.height_px(), ""};
+  const std::string collections = CollectionData(world, flight);
+  picture.script = FrameScript(frame, picture, legend) + AxesScript(world) + PathData(world, flight) +
+                   collections + SensorData(world) + EndData(world) +
+                   PlotCommand(collections.find(' ', collections.find('\n')) != std::string::npos);
+  return picture;
+}
+
+}  // namespace fresco

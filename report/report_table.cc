@@ -1,0 +1,78 @@
+#include "report/report_table.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "core/check.h"
+#include "report/report_text.h"
+
+namespace fresco {
+namespace {
+
+/// Numbers may have a sign before and a unit behind them; a dash or nothing stands for a missing one.
+bool IsNumber(std::string_view cell) {
+  constexpr std::string_view kSigns[] = {"-", "+", "\u2212", "\u2013", "\u2014", "\u00b1", "<", ">", "~"};
+  for (const std::string_view sign : kSigns) {
+    if (cell.starts_with(sign)) {
+      cell.remove_prefix(sign.size());
+      break;
+    }
+  }
+  return cell.empty() || (cell.front() >= '0' && cell.front() <= '9');
+}
+
+std::vector<bool> NumericColumns(const ReportTable& table) {
+  const std::vector<std::string>& first =
+      table.header.empty() && !table.rows.empty() ? table.rows.front() : table.header;
+  std::vector<bool> numeric(first.size(), true);
+  for (const std::vector<std::string>& row : table.rows) {
+    FRESCO_CHECK(row.size() == numeric.size());
+    for (size_t column = 0; column < row.size(); ++column) {
+      numeric[column] = numeric[column] && IsNumber(row[column]);
+    }
+  }
+  return numeric;
+}
+
+std::string TableCell(std::string_view tag, bool number, const std::string& text) {
+  return fmt::format("<{}{}>{}</{}>", tag, number ? " class=\"number\"" : "", EscapedHtml(text),
+                     tag.substr(0, 2));
+}
+
+std::string HeaderRow(const std::vector<std::string>& cells, const std::vector<bool>& numeric) {
+  std::string html = "<tr>";
+  for (size_t column = 0; column < cells.size(); ++column) {
+    html += TableCell("th scope=\"col\"", numeric[column], cells[column]);
+  }
+  return html + "</tr>\n";
+}
+
+std::string Row(const std::vector<std::string>& cells, const std::vector<bool>& numeric) {
+  std::string html = "<tr>";
+  for (size_t column = 0; column < cells.size(); ++column) {
+    html += TableCell(column == 0 ? "th scope=\"row\"" : "td", numeric[column], cells[column]);
+  }
+  return html + "</tr>\n";
+}
+
+}  // namespace
+
+std::string TableHtml(const ReportTable& table) {
+  const std::vector<bool> numeric = NumericColumns(table);
+  // Focusable, so that it can be scrolled with the keyboard.
+  std::string html = fmt::format(
+      "<div class=\"table\" role=\"region\" aria-label=\"{0}\" tabindex=\"0\">\n"
+      "<table>\n<caption>{0}</caption>\n",
+      EscapedHtml(table.title));
+  if (!table.header.empty()) {
+    html += "<thead>\n" + HeaderRow(table.header, numeric) + "</thead>\n";
+  }
+  html += "<tbody>\n";
+  for (const std::vector<std::string>& row : table.rows) {
+    html += Row(row, numeric);
+  }
+  return html + "</tbody>\n</table>\n</div>\n";
+}
+
+}  // namespace fresco

@@ -1,0 +1,136 @@
+#include "report/run_report.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "report/train_display.h"
+#include "runs/network_file.h"
+#include "runs/policy.h"
+
+namespace fresco {
+namespace {
+
+using Json = nlohmann::json;
+using Path = std::filesystem::path;
+
+std::vector<std::string> Split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+size_t ColumnOf(const std::vector<std::string>& header, const std::string& name, const Path& file) {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) {
+    throw UsageError(fmt::format("{}: has no column {}", file.string(), name));
+  }
+  return static_cast<size_t>(found - header.begin());
+}
+
+Flight FlyActions(const World& world, const Json& actions) {
+  size_t next = 0;
+  return Fly(world, [&](const Environment&) { return world.ActionAt(actions.at(next++).get<int>()); });
+}
+
+}  // namespace
+
+FinishedRun::FinishedRun(const Path& folder)
+    : experiment_(Experiment::Load((folder / "config.textproto").string())),
+      world_(experiment_.scenario()),
+      summary_(ReadFile(folder / "summary.json")) {
+  TakeFlights(folder);
+  TakeLearningCurve(folder);
+}
+
+void FinishedRun::TakeFlights(const Path& folder) {
+  if (std::filesystem::exists(folder / "best.network")) {
+    const StoredNetwork network = ReadNetworkFile(folder / "best.network");
+    flights_.push_back({"this run (DQN)", FlyNetwork(world_, experiment_, network)});
+  }
+  if (std::filesystem::exists(folder / "optimum.json")) {
+    const Json optimum = Json::parse(ReadFile(folder / "optimum.json"));
+    flights_.push_back(
+        {FoundFlightName(optimum.at("optimal").get<bool>()), FlyActions(world_, optimum.at("actions"))});
+  }
+  flights_.push_back({"AoI-based", FlyBaseline(world_, BaselineKind::kAoi)});
+  flights_.push_back({"distance-based", FlyBaseline(world_, BaselineKind::kDistance)});
+}
+
+void FinishedRun::TakeLearningCurve(const Path& folder) {
+  learning_curve_.title = "Greedy flights during training";
+  const Json optimal = Json::parse(summary_).at("optimal_average_aoi");
+  if (!optimal.is_null()) {
+    learning_curve_.optimum_average_aoi = optimal.get<double>();
+  }
+  const Path file = folder / "metrics.csv";
+  if (!std::filesystem::exists(file)) {
+    return;
+  }
+  std::istringstream stream(ReadFile(file));
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> header = Split(line);
+  const size_t updates = ColumnOf(header, "updates", file);
+  const size_t average_aoi = ColumnOf(header, "average_aoi", file);
+  const size_t arrived = ColumnOf(header, "arrived", file);
+  while (std::getline(stream, line)) {
+    const std::vector<std::string> cells = Split(line);
+    learning_curve_.points.push_back(
+        {std::stoll(cells.at(updates)), std::stod(cells.at(average_aoi)), cells.at(arrived) == "1"});
+  }
+}
+
+ReportFigure WriteFigure(const Picture& picture, const Path& stem, const std::string& title,
+                         const std::string& caption) {
+  WritePicture(picture, stem);
+  return {title, caption, ReadFile(stem.string() + ".svg")};
+}
+
+ReportTable PolicyTable(const std::string& summary_json) {
+  const std::vector<std::vector<std::string>> rows = PolicyRows(summary_json);
+  ReportTable table{"Policies", rows.front(), {}};
+  table.rows.assign(rows.begin() + 1, rows.end());
+  return table;
+}
+
+void WriteRunReport(const Path& folder) {
+  const FinishedRun run(folder);
+  const Json summary = Json::parse(run.summary());
+  ReportContents contents;
+  const bool proved = !summary.at("optimal_average_aoi").is_null();
+  contents.title = "Fresco: a trained policy" + std::string(proved ? " beside the exact optimum" : "");
+  contents.summary = fmt::format(
+      "{} training episodes, {} updates in {:.0f} s; seed {}, configuration {}, weights {}.{}",
+      summary.at("episodes").get<int64_t>(), summary.at("updates").get<int64_t>(),
+      summary.at("wall_s").get<double>(), summary.at("seed").get<uint64_t>(),
+      summary.at("config_hash").get<std::string>(), summary.at("weights_crc32c").get<std::string>(),
+      summary.at("completed").get<bool>() ? "" : " The run was interrupted before its end.");
+  if (const std::string note = OptimumNote(run.summary()); !note.empty()) {
+    contents.summary += " " + note;
+  }
+  contents.tables = {PolicyTable(run.summary())};
+  if (!run.learning_curve().points.empty()) {
+    try {
+      contents.figures.push_back(WriteFigure(DrawLinePlot(LearningCurvePlot(run.learning_curve())),
+                                             folder / "learning_curve", "Learning curve",
+                                             "One greedy flight of every evaluated version of the network."));
+    } catch (const Error& error) {
+      spdlog::warn("report.html is without the learning curve: {}", error.what());
+    }
+  }
+  contents.flights = run.flights();
+  contents.world = &run.world();
+  contents.configuration = run.experiment().Text();
+  WriteFileAtomically(folder / "report.html", ReportPage(contents));
+}
+
+}  // namespace fresco

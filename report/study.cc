@@ -1,0 +1,177 @@
+#include "report/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/live_line.h"
+#include "core/signals.h"
+#include "processes/run_checks.h"
+#include "processes/training_run.h"
+#include "report/study_folder.h"
+
+namespace fresco {
+namespace {
+
+using Path = std::filesystem::path;
+
+class Study {
+ public:
+  Study(const std::vector<StudyJob>& jobs, const StudyOptions& options)
+      : jobs_(jobs), options_(options), results_(jobs.size()), line_(true) {
+    for (size_t job = 0; job < jobs_.size(); ++job) {
+      if (const auto result = CompleteResult(FolderOf(job), jobs_[job])) {
+        results_[job] = *result;
+      } else {
+        CheckJob(job);
+        waiting_.push_back(job);
+      }
+    }
+    to_run_ = waiting_.size();
+  }
+
+  std::vector<StudyResult> Run() {
+    constexpr int64_t kPollUs = 50'000;
+    running_.resize(static_cast<size_t>(options_.parallel));
+    while (done_ < to_run_) {
+      for (size_t place = 0; place < running_.size(); ++place) {
+        if (!running_[place] && !waiting_.empty()) {
+          Start(place);
+        }
+        if (running_[place] && !running_[place]->run->Step(kPollUs)) {
+          Finish(place);
+        }
+      }
+      if (StopSignal::Requested()) {
+        EndAll();
+        throw Failure(fmt::format("stopped; {} of {} runs are complete, and the same command goes on there",
+                                  jobs_.size() - to_run_ + done_, jobs_.size()));
+      }
+      ShowProgress();
+    }
+    return results_;
+  }
+
+ private:
+  struct Running {
+    size_t job;
+    std::unique_ptr<TrainingRun> run;
+  };
+
+  /// All jobs are checked before the first is started: the last of them may begin an hour later.
+  void CheckJob(size_t job) const {
+    InterruptedRun(FolderOf(job), jobs_[job]);
+    if (waiting_.empty()) {  // the bus of one is that of all
+      CheckRunAndBus(jobs_[job].experiment, options_.bus);
+    } else {
+      CheckRun(jobs_[job].experiment);
+    }
+  }
+
+  Path FolderOf(size_t job) const { return options_.folder / jobs_[job].name; }
+
+  /// Each place has channels of its own, so that runs side by side share one bus.
+  Experiment ExperimentAt(size_t place, size_t job) const {
+    proto::ExperimentConfig config = jobs_[job].experiment.config();
+    if (place > 0) {
+      config.mutable_run()->set_channel_prefix(
+          fmt::format("{}_{}", config.run().channel_prefix(), place + 1));
+    }
+    return Experiment::Make(config, jobs_[job].name);
+  }
+
+  std::unique_ptr<TrainingRun> MakeRun(size_t place, size_t job) const {
+    const Path folder = FolderOf(job);
+    const Experiment experiment = ExperimentAt(place, job);
+    if (std::optional<Resumption> interrupted = InterruptedRun(folder, jobs_[job])) {
+      interrupted->experiment = experiment;  // the same but for `run`: place and LCM URL may be others now
+      return std::make_unique<TrainingRun>(*interrupted, folder, options_.bus);
+    }
+    std::filesystem::remove_all(folder);  // what was left there is nothing to go on from
+    return std::make_unique<TrainingRun>(experiment, folder, options_.bus);
+  }
+
+  void Start(size_t place) {
+    const size_t job = waiting_.front();
+    waiting_.pop_front();
+    running_[place].emplace(Running{job, MakeRun(place, job)});
+    running_[place]->run->Start();
+  }
+
+  void Finish(size_t place) {
+    Running& running = *running_[place];
+    const int status = running.run->End();
+    running.run->Summary();  // throws in the learner's own words if there is none
+    const auto result = CompleteResult(FolderOf(running.job), jobs_[running.job]);
+    if (!result && !StopSignal::Requested()) {
+      throw Failure(fmt::format("run {} ended with exit status {}; see {}", jobs_[running.job].name, status,
+                                (FolderOf(running.job) / "learner.log").string()));
+    }
+    if (result) {
+      results_[running.job] = *result;
+      ++done_;
+    }
+    running_[place].reset();
+  }
+
+  void EndAll() {
+    for (const auto& running : running_) {
+      if (running) {
+        running->run->End();
+      }
+    }
+  }
+
+  double Share(const Running& running) const {
+    const auto& status = running.run->status();
+    return status ? static_cast<double>(status->episodes) / static_cast<double>(status->total_episodes) : 0;
+  }
+
+  std::string Progress(const Running& running) const {
+    const auto& status = running.run->status();
+    return Share(running) < 1 || status->waiting_for.empty()
+               ? fmt::format("{:.0f} %", 100 * Share(running))
+               : fmt::format("is trained and waits for {}", status->waiting_for);
+  }
+
+  void ShowProgress() {
+    double runs_done = static_cast<double>(done_);
+    std::string going_on;
+    for (const auto& running : running_) {
+      if (running) {
+        runs_done += Share(*running);
+        going_on += fmt::format(" | {} {}", jobs_[running->job].name, Progress(*running));
+      }
+    }
+    const double passed_s = static_cast<double>(MonotonicMicroseconds() - begin_us_) * 1e-6;
+    const std::string left =
+        runs_done > 0.2 ? fmt::format(", about {:.0f} min left",
+                                      passed_s / runs_done * (static_cast<double>(to_run_) - runs_done) / 60)
+                        : "";
+    line_.Show(fmt::format("{} of {} runs complete{}{}", jobs_.size() - to_run_ + done_, jobs_.size(), left,
+                           going_on));
+  }
+
+  const std::vector<StudyJob>& jobs_;
+  const StudyOptions& options_;
+  std::vector<StudyResult> results_;
+  std::deque<size_t> waiting_;                   // jobs
+  std::vector<std::optional<Running>> running_;  // by place
+  size_t to_run_ = 0;
+  size_t done_ = 0;
+  int64_t begin_us_ = MonotonicMicroseconds();
+  LiveLine line_;
+};
+
+}  // namespace
+
+std::vector<StudyResult> RunStudy(const std::vector<StudyJob>& jobs, const StudyOptions& options) {
+  return Study(jobs, options).Run();
+}
+
+}  // namespace fresco

@@ -1,0 +1,84 @@
+// What is written is read by LCM's own library.
+#include "logs/event_log_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+#include "tests/logs/event_log_files.h"
+
+namespace fresco {
+namespace {
+
+std::string ContentOf(const std::filesystem::path& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+TEST(EventLogWriter, WritesWhatLcmReads) {
+  const LogFolder folder;
+  const auto events = SampleEvents(300);
+  EventLogWriter writer(folder.path() / "log");
+  for (const LogEvent& event : events) {
+    writer.Write(EventOf(event));
+  }
+  writer.Flush();
+  EXPECT_EQ(ReadWithLcm(folder.path() / "log"), events);
+  EXPECT_EQ(ContentOf(folder.path() / "log"), LogBytes(events));
+  EXPECT_EQ(writer.events(), 300);
+  EXPECT_EQ(writer.bytes(), static_cast<int64_t>(LogBytes(events).size()));
+  EXPECT_EQ(writer.files(), 1);
+}
+
+TEST(EventLogWriter, SplitsIntoPartsThatLcmReadsEachByItself) {
+  const LogFolder folder;
+  const auto events = SampleEvents(100);
+  std::vector<LogEvent> read;
+  EventLogWriter writer(folder.path() / "log", 2000);
+  for (const LogEvent& event : events) {
+    writer.Write(EventOf(event));
+  }
+  writer.Flush();
+  ASSERT_GT(writer.files(), 3);
+  for (int part = 0; part < writer.files(); ++part) {
+    const auto path = folder.path() / ("log.0" + std::to_string(part));
+    const auto of_part = ReadWithLcm(path);
+    read.insert(read.end(), of_part.begin(), of_part.end());
+    EXPECT_EQ(std::filesystem::file_size(path) >= 2000, part + 1 < writer.files()) << path;
+    EXPECT_LT(std::filesystem::file_size(path), 2000u + 28 + 400);
+  }
+  EXPECT_EQ(read, events);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "log"));
+}
+
+TEST(EventLogWriter, NeverWritesOverAFile) {
+  const LogFolder folder;
+  for (const auto& [name, split_bytes] : {std::pair("log", 0), std::pair("log.00", 1000)}) {
+    WriteBytes(folder.path() / name, "precious");
+    try {
+      EventLogWriter writer(folder.path() / "log", split_bytes);
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(ContentOf(folder.path() / name), "precious");
+  }
+}
+
+TEST(EventLogWriter, NamesAFolderThatIsNotThere) {
+  try {
+    EventLogWriter writer("/nonexistent/folder/log");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    EXPECT_NE(std::string(error.what()).find("/nonexistent/folder/log"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace fresco

@@ -1,0 +1,158 @@
+// What `fresco log info` gathers, from messages made by hand.
+#include "logs/log_summary.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "logs/event_json.h"
+#include "logs/event_selection.h"
+#include "logs/log_summary_text.h"
+#include "tests/msgs/message_samples.h"
+
+namespace fresco {
+namespace {
+
+constexpr RunIdentity kRun = {0x123456789abcdef0, 0xcafe0001};
+
+class Log {
+ public:
+  template <class Message>
+  void Add(const std::string& channel, const Message& message) {
+    AddBytes(channel, Encoded(message));
+  }
+  void AddBytes(const std::string& channel, const std::vector<std::byte>& bytes) {
+    summary.Take({0, utime, channel, bytes});
+    utime += 500'000;
+  }
+  nlohmann::json Json() const { return nlohmann::json::parse(LogSummaryJson(summary, {1000, 7, 0})); }
+
+  LogSummary summary;
+  int64_t utime = 1'700'000'000'000'000;
+};
+
+transitions_t Transitions(int64_t order, int32_t first, int count, int8_t outcome) {
+  RandomStream stream(9, RandomPurpose::kTest, 0, 0);
+  transitions_t message = TransitionsOf(stream, count, 3);
+  Stamp(message, kRun, 1);
+  message.order_index = order;
+  message.first_transition = first;
+  message.outcome = outcome;
+  message.actor_id = 77;
+  return message;
+}
+
+run_t RunMessage(int32_t part, int8_t finished) {
+  RandomStream stream(9, RandomPurpose::kTest, 1, 0);
+  run_t message = RunOf(stream, 10);
+  Stamp(message, kRun, 1);
+  message.part_index = part;
+  message.part_count = 2;
+  message.finished = finished;
+  return message;
+}
+
+actor_status_t Status(int64_t sequence) {
+  RandomStream stream(9, RandomPurpose::kTest, 2, 0);
+  actor_status_t message = ActorStatusOf(stream, 1, 2, 5);
+  Stamp(message, kRun, 1);
+  message.actor_id = 77;
+  message.sequence = sequence;
+  return message;
+}
+
+TEST(LogSummary, TellsRunsEpisodesAndActors) {
+  Log log;
+  log.Add("FRESCO_RUN", RunMessage(0, 0));
+  log.Add("FRESCO_TRANSITIONS", Transitions(0, 0, 4, 0));
+  log.Add("FRESCO_TRANSITIONS", Transitions(0, 4, 2, 1));
+  log.Add("FRESCO_TRANSITIONS", Transitions(0, 4, 2, 1));
+  log.Add("FRESCO_TRANSITIONS", Transitions(3, 4, 2, 1));
+  EXPECT_FALSE(log.summary.runs().at(kRun.run_id).config_known());
+  log.Add("FRESCO_RUN", RunMessage(1, 1));
+  for (const int64_t sequence : {5, 6, 9, 10}) {
+    log.Add("FRESCO_ACTOR_STATUS", Status(sequence));
+  }
+  const auto json = log.Json();
+  const auto& run = json["runs"][0];
+  EXPECT_EQ(run["run_id"], "123456789abcdef0");
+  EXPECT_EQ(run["config_hash"], "cafe0001");
+  EXPECT_EQ(run["config_known"], true);
+  EXPECT_EQ(run["finished"], true);
+  EXPECT_EQ(run["episodes_whole"], 1);
+  EXPECT_EQ(run["episodes_partial"], 1);
+  EXPECT_EQ(run["orders_without_transitions"], 2);  // 1 and 2
+  EXPECT_EQ(run["transitions"], 8);
+  EXPECT_EQ(run["transitions_missing"], 4);
+  EXPECT_EQ(run["transitions_repeated"], 2);
+  EXPECT_EQ(run["actors"], nlohmann::json::array({77}));
+  const auto& actor = json["actors"][0];
+  EXPECT_EQ(actor["statuses"], 4);
+  EXPECT_EQ(actor["missing"], 2);
+  EXPECT_EQ(actor["first_gaps"], nlohmann::json::parse("[[7, 8]]"));
+  EXPECT_EQ(json["duration_s"], 4.5);
+  EXPECT_EQ(json["damaged_bytes"], 7);
+  EXPECT_NE(LogSummaryText(log.summary, {}).find("1 whole, 1 partial"), std::string::npos);
+}
+
+TEST(LogSummary, CountsForeignAndDamagedMessages) {
+  Log log;
+  auto damaged = Encoded(Status(1));
+  damaged.back() ^= std::byte{1};
+  log.AddBytes("FRESCO_ACTOR_STATUS", damaged);
+  auto transitions = Encoded(Transitions(0, 0, 4, 1));
+  transitions[60] ^= std::byte{1};
+  log.AddBytes("FRESCO_TRANSITIONS", transitions);
+  log.AddBytes("CAMERA", std::vector<std::byte>(20, std::byte{0xab}));
+  log.AddBytes("FRESCO_ACTOR_STATUS", {});
+  const auto json = log.Json();
+  EXPECT_EQ(json["damaged_messages"], 2);
+  EXPECT_EQ(json["foreign_messages"], 2);
+  EXPECT_EQ(json["channels"][0]["type"], "foreign abababababababab");
+  EXPECT_EQ(json["channels"][1]["type"], "mixed");
+  EXPECT_TRUE(json["runs"].empty());
+}
+
+TEST(EventJson, ShowsEveryKindOfEvent) {
+  MessageDecoder decoder;
+  const auto bytes = Encoded(Transitions(3, 4, 2, 1));
+  auto json = nlohmann::json::parse(EventJson({0, 5, "FRESCO_TRANSITIONS", bytes}, decoder));
+  EXPECT_EQ(json["type"], "transitions_t");
+  EXPECT_EQ(json["message"]["run_id"], "123456789abcdef0");
+  EXPECT_EQ(json["message"]["order_index"], 3);
+  EXPECT_EQ(json["message"]["aoi"].size(), 3u);
+  json = nlohmann::json::parse(EventJson({0, 5, "FRESCO_TRANSITIONS", std::span(bytes).first(99)}, decoder));
+  EXPECT_EQ(json["type"], "transitions_t");
+  EXPECT_EQ(json["damaged"], true);
+  EXPECT_EQ(json["bytes"], 99);
+  const std::vector<std::byte> foreign(9, std::byte{0xff});
+  json = nlohmann::json::parse(EventJson({0, 5, "\xff", foreign}, decoder));
+  EXPECT_EQ(json["type"], nullptr);
+  EXPECT_EQ(json["fingerprint"], "ffffffffffffffff");
+}
+
+TEST(EventSelection, TakesTimesFromTheFirstEventAndEndsBeforeTheStop) {
+  EventSelection selection({.start_s = 1, .stop_s = 2});
+  const std::vector<std::byte> bytes;
+  std::string wanted;
+  for (const int64_t utime : {5'000'000, 5'999'999, 6'000'000, 6'999'999, 7'000'000}) {
+    wanted += selection.Wants({0, utime, "A", bytes}) ? '1' : '0';
+  }
+  EXPECT_EQ(wanted, "00110");
+}
+
+TEST(EventSelection, DropsOtherRunsOnly) {
+  EventSelection selection({.run = "123456789abcdef0"});
+  const std::vector<std::byte> foreign(100);
+  auto other = Status(1);
+  other.run_id = 5;
+  auto without = Status(1);
+  without.run_id = 0;
+  EXPECT_TRUE(selection.Wants({0, 1, "A", Encoded(Status(1))}));
+  EXPECT_FALSE(selection.Wants({0, 1, "A", Encoded(other)}));
+  EXPECT_TRUE(selection.Wants({0, 1, "A", Encoded(without)}));
+  EXPECT_TRUE(selection.Wants({0, 1, "A", foreign}));
+}
+
+}  // namespace
+}  // namespace fresco

@@ -1,0 +1,203 @@
+// What logs hold of runs and their episodes.
+#include "logs/logged_episodes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bus/authenticated_bus.h"
+#include "bus/bus.h"
+#include "core/crc32c.h"
+#include "core/error.h"
+#include "tests/logs/run_log.h"
+
+namespace fresco {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using Ranges = std::vector<std::pair<int64_t, int64_t>>;
+
+class LoggedEpisodesTest : public testing::Test {
+ protected:
+  LoggedEpisodesTest() : directory_(EmptyDirectory("logged_episodes")) {
+    live_.Finish();
+    events_ = EventsOf(live_, Identity(live_));
+  }
+
+  LoggedEpisodes Open(const LogPaths& paths, std::optional<AuthenticationKey> key = {}) const {
+    return {{paths, std::move(key)}, Identity(live_), live_.world, live_.experiment.mask_options()};
+  }
+
+  /// Removes the transitions of these orders.
+  void Remove(const std::set<int64_t>& orders) {
+    std::erase_if(events_, [&](const OwnedEvent& event) {
+      transitions_t message{};
+      return Decode(event.message, message) && orders.contains(message.order_index);
+    });
+  }
+
+  std::filesystem::path directory_;
+  RecordedRun live_;
+  std::vector<OwnedEvent> events_;
+};
+
+TEST_F(LoggedEpisodesTest, HandsOutTheEpisodesThatWereFlown) {
+  WriteLog(directory_ / "log", events_);
+  LoggedEpisodes episodes = Open({directory_ / "log"});
+  ASSERT_EQ(episodes.whole().size(), live_.episodes.size());
+  for (size_t i = 3; i < live_.episodes.size(); i += 2) {
+    const Episode episode = episodes.Take(static_cast<int64_t>(i));
+    EXPECT_EQ(episode.order_index, static_cast<int64_t>(i));
+    EXPECT_EQ(episode.actions, live_.episodes[i].actions);
+    EXPECT_EQ(episode.rewards, live_.episodes[i].rewards);
+    EXPECT_EQ(episode.td_errors, live_.episodes[i].td_errors);
+    EXPECT_EQ(episode.next_masks, live_.episodes[i].next_masks);
+    EXPECT_EQ(episode.outcome, live_.episodes[i].outcome);
+  }
+}
+
+TEST_F(LoggedEpisodesTest, NamesWhatIsMissingAsRanges) {
+  Remove({0, 1, 2, 10, 20, 21});
+  WriteLog(directory_ / "log", events_);
+  const LoggedEpisodes episodes = Open({directory_ / "log"});
+  EXPECT_EQ(episodes.Missing(), (Ranges{{0, 2}, {10, 10}, {20, 21}}));
+}
+
+TEST_F(LoggedEpisodesTest, PutsTogetherWhatSeveralRecordersHeard) {
+  std::vector<OwnedEvent> even;
+  std::vector<OwnedEvent> odd;
+  for (size_t i = 0; i < events_.size(); ++i) {
+    (i / 2 % 2 == 0 ? even : odd).push_back(events_[i]);
+  }
+  WriteLog(directory_ / "even", even);
+  WriteLog(directory_ / "odd", odd);
+  EXPECT_FALSE(Open({directory_ / "even"}).Missing().empty());
+  LoggedEpisodes both = Open({directory_ / "odd", directory_ / "even"});
+  EXPECT_EQ(both.whole().size(), live_.episodes.size());
+  EXPECT_EQ(both.Take(7).actions, live_.episodes[7].actions);
+}
+
+TEST_F(LoggedEpisodesTest, KnowsTrainingFromEvaluationByTheOrders) {
+  WriteLog(directory_ / "log", events_);
+  std::vector<int64_t> expected;
+  for (const Order& order : live_.orders) {
+    if (order.kind == OrderKind::kTrain) {
+      expected.push_back(order.index);
+    }
+  }
+  EXPECT_EQ(expected.size(), 60u);
+  EXPECT_EQ(Open({directory_ / "log"}).Training(), expected);
+  std::erase_if(events_, [](const OwnedEvent& event) { return event.channel == "FRESCO_ORDERS"; });
+  WriteLog(directory_ / "without orders", events_);
+  EXPECT_TRUE(Open({directory_ / "without orders"}).Training().empty());
+}
+
+TEST_F(LoggedEpisodesTest, ReadsAuthenticatedMessages) {
+  for (OwnedEvent& event : events_) {
+    event.message.insert(event.message.end(), kAuthenticationTagBytes, std::byte{7});
+  }
+  WriteLog(directory_ / "log", events_);
+  EXPECT_EQ(Open({directory_ / "log"}).whole().size(), live_.episodes.size());
+  EXPECT_EQ(FindLoggedRuns({{directory_ / "log"}}).size(), 1u);
+}
+
+/// The same events as they stand on a bus with this key.
+std::vector<OwnedEvent> Authenticated(const std::vector<OwnedEvent>& events, const AuthenticationKey& key) {
+  std::vector<OwnedEvent> authenticated;
+  const std::unique_ptr<Bus> plain = OpenLcmBus("memq://");
+  plain->SubscribeToAll([&](const LcmEvent& event) {
+    authenticated.push_back({static_cast<int64_t>(authenticated.size()),
+                             std::string(event.channel),
+                             {event.message.begin(), event.message.end()}});
+  });
+  const std::unique_ptr<Bus> keyed = MakeAuthenticatedBus(*plain, key);
+  for (const OwnedEvent& event : events) {
+    keyed->Publish(event.channel, event.message);
+    while (plain->Poll(1'000'000) == 0) {
+    }
+  }
+  return authenticated;
+}
+
+TEST_F(LoggedEpisodesTest, TakesOnlyWhatIsAuthenticatedWhereThereIsAKey) {
+  const AuthenticationKey key(std::vector<std::byte>(32, std::byte{1}));
+  const AuthenticationKey other_key(std::vector<std::byte>(32, std::byte{2}));
+  const size_t episodes = live_.episodes.size();
+  std::vector<OwnedEvent> log = Authenticated(events_, key);
+  log.insert(log.end(), events_.begin(), events_.end());
+  WriteLog(directory_ / "log", log);
+  const LoggedEpisodes authentic = Open({directory_ / "log"}, key);
+  EXPECT_EQ(authentic.whole().size(), episodes);
+  EXPECT_EQ(authentic.refused(), static_cast<int64_t>(events_.size()));
+  const LoggedEpisodes strange = Open({directory_ / "log"}, other_key);
+  EXPECT_TRUE(strange.whole().empty());
+  EXPECT_EQ(strange.refused(), static_cast<int64_t>(log.size()));
+}
+
+TEST_F(LoggedEpisodesTest, HoldsNoMoreThanBoundedPiecesWhateverTheLogHolds) {
+  // Pieces of 20,000 episodes that never become whole.
+  const auto piece = std::find_if(events_.begin(), events_.end(), [](const OwnedEvent& event) {
+    return event.channel == "FRESCO_TRANSITIONS";
+  });
+  transitions_t message{};
+  ASSERT_TRUE(Decode(piece->message, message));
+  message.outcome = 0;
+  std::vector<OwnedEvent> flood(20'000);
+  for (size_t i = 0; i < flood.size(); ++i) {
+    message.order_index = static_cast<int64_t>(i) * 1'000'000;
+    flood[i] = {0, "FRESCO_TRANSITIONS", {}};
+    Encode(message, flood[i].message);
+  }
+  flood.insert(flood.end(), events_.begin(), events_.end());
+  WriteLog(directory_ / "log", flood);
+  LoggedEpisodes episodes = Open({directory_ / "log"});
+  EXPECT_EQ(episodes.Missing(), Ranges{});
+  EXPECT_EQ(episodes.Take(30).actions, live_.episodes[30].actions);
+}
+
+TEST_F(LoggedEpisodesTest, KnowsTheNetworksByTheirCrc) {
+  WriteLog(directory_ / "log", events_);
+  const LoggedEpisodes episodes = Open({directory_ / "log"});
+  const Vector& last = *live_.current_versions.back();
+  const auto version = static_cast<int32_t>(live_.current_versions.size() - 1);
+  EXPECT_EQ(episodes.WeightsCrc(NetworkKind::kCurrent, version),
+            Crc32c(std::span(last.data(), static_cast<size_t>(last.size()))));
+  EXPECT_EQ(episodes.WeightsCrc(NetworkKind::kCurrent, version + 1), std::nullopt);
+}
+
+TEST_F(LoggedEpisodesTest, FindsTheRunsOfALogAndTheirConfiguration) {
+  std::vector<OwnedEvent> others = EventsOf(live_, Identity(live_, 78));
+  std::erase_if(others, [](const OwnedEvent& event) { return event.channel == "FRESCO_RUN"; });
+  events_.insert(events_.end(), others.begin(), others.end());
+  WriteLog(directory_ / "log", events_);
+  const std::vector<LoggedRun> runs = FindLoggedRuns({{directory_ / "log"}});
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].identity, Identity(live_));
+  EXPECT_EQ(runs[0].config_text, live_.experiment.Text());
+  EXPECT_EQ(runs[0].arithmetic_fingerprint, ArithmeticFingerprint());
+  EXPECT_EQ(runs[0].protocol_version, kProtocolVersion);
+  EXPECT_GE(runs[0].transitions_messages, static_cast<int64_t>(live_.episodes.size()));
+  EXPECT_EQ(runs[1].identity, Identity(live_, 78));
+  EXPECT_EQ(runs[1].config_text, std::nullopt);
+
+  EXPECT_EQ(ChooseLoggedRun(runs, "000000000000004e").identity.run_id, 78);
+  EXPECT_THAT([&] { ChooseLoggedRun(runs, ""); },
+              ThrowsMessage<Error>(testing::AllOf(HasSubstr("--run"), HasSubstr("000000000000004d"),
+                                                  HasSubstr("000000000000004e"))));
+  EXPECT_THAT([&] { ChooseLoggedRun(runs, "4f"); }, ThrowsMessage<Error>(HasSubstr("no run 4f")));
+  EXPECT_THAT([] { ChooseLoggedRun({}, ""); }, ThrowsMessage<Error>(HasSubstr("no run of Fresco")));
+}
+
+TEST(LoggedRuns, OfAnotherReleaseAreNoRunsOfThisOne) {
+  LoggedRun run;
+  ExpectOrdersOfThisRelease(run);  // nothing was recorded that contradicts
+  run.protocol_version = kProtocolVersion;
+  ExpectOrdersOfThisRelease(run);
+  run.protocol_version = kProtocolVersion - 1;
+  EXPECT_THAT([&] { ExpectOrdersOfThisRelease(run); }, ThrowsMessage<Error>(HasSubstr("protocol version 3")));
+}
+
+}  // namespace
+}  // namespace fresco

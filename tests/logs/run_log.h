@@ -1,0 +1,33 @@
+// An LCM event log as a recorder would have written it of a small run that was flown in this process.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/training/recorded_run.h"
+
+namespace fresco {
+
+/// An event that owns its bytes.
+struct OwnedEvent {
+  int64_t utime = 0;
+  std::string channel;
+  std::vector<std::byte> message;
+};
+
+inline RunIdentity Identity(const RecordedRun& run, int64_t run_id = 77) {
+  return {run_id, run.experiment.hash()};
+}
+
+/// Everything that the run's learner and actor would have sent, in order: the configuration, orders, episodes
+/// in messages of transitions, and the first chunk of each version of the networks.
+std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity);
+
+void WriteLog(const std::filesystem::path& path, const std::vector<OwnedEvent>& events);
+
+/// A directory of the test's own, empty.
+std::filesystem::path EmptyDirectory(const std::string& name);
+
+}  // namespace fresco

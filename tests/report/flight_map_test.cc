@@ -1,0 +1,125 @@
+#include "report/flight_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/atomic_file.h"
+#include "tests/report/picture_files.h"
+
+namespace fresco {
+namespace {
+
+/// A grid that is not square, three sensors (one between cells), 30 slots.
+World SmallWorld() {
+  Scenario scenario;
+  scenario.columns = 12;
+  scenario.rows = 8;
+  scenario.slots = 30;
+  scenario.start = {1, 0};
+  scenario.stop = {10, 7};
+  scenario.coverage_radius_m = 50;
+  scenario.sensors = {{50, 50, 1}, {212.5, 137.5, 1}, {250, 25, 1}};
+  return World(scenario);
+}
+
+/// Slots of `flight` in which a sensor within the radius was scheduled, from the distances themselves.
+std::vector<FlightSlot> Collections(const World& world, const Flight& flight) {
+  std::vector<FlightSlot> slots;
+  for (const FlightSlot& slot : flight.slots) {
+    if (slot.action.schedule > 0) {
+      const Sensor& sensor = world.scenario().sensors[static_cast<size_t>(slot.action.schedule - 1)];
+      const double distance_m = std::hypot(slot.state.cell.column * world.scenario().cell_m - sensor.x_m,
+                                           slot.state.cell.row * world.scenario().cell_m - sensor.y_m);
+      if (distance_m <= world.scenario().coverage_radius_m) {
+        slots.push_back(slot);
+      }
+    }
+  }
+  return slots;
+}
+
+TEST(FlightMap, ShowsThePathSlotBySlotWithinItsCells) {
+  const World world = SmallWorld();
+  const Flight flight = FlyBaseline(world, BaselineKind::kAoi);
+  const auto path = DataBlock(DrawFlightMap("map", world, flight).script, "path");
+  ASSERT_EQ(path.size(), flight.slots.size());
+  for (size_t i = 0; i < path.size(); ++i) {
+    ASSERT_EQ(path[i].size(), 3U);
+    EXPECT_LT(std::abs(path[i][0] - flight.slots[i].state.cell.column), 0.5);
+    EXPECT_LT(std::abs(path[i][1] - flight.slots[i].state.cell.row), 0.5);
+    EXPECT_EQ(path[i][2], static_cast<double>(i + 1));
+  }
+}
+
+TEST(FlightMap, JoinsEveryCollectionWithItsSensor) {
+  const World world = SmallWorld();
+  const Flight flight = FlyBaseline(world, BaselineKind::kDistance);
+  const std::vector<FlightSlot> expected = Collections(world, flight);
+  ASSERT_GT(expected.size(), 3U);
+  const auto shown = DataBlock(DrawFlightMap("map", world, flight).script, "collections");
+  ASSERT_EQ(shown.size(), expected.size());
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const Sensor& sensor = world.scenario().sensors[static_cast<size_t>(expected[i].action.schedule - 1)];
+    EXPECT_LT(std::abs(shown[i][0] - expected[i].state.cell.column), 0.5);
+    EXPECT_LT(std::abs(shown[i][1] - expected[i].state.cell.row), 0.5);
+    EXPECT_NEAR(shown[i][0] + shown[i][2], sensor.x_m / 25, 1e-9);
+    EXPECT_NEAR(shown[i][1] + shown[i][3], sensor.y_m / 25, 1e-9);
+  }
+}
+
+TEST(FlightMap, LeavesOutSchedulesWithoutCoverage) {
+  const World world = SmallWorld();
+  const Flight flight = Fly(world, [&](const Environment& environment) {
+    const bool east = environment.state().cell.column < world.scenario().stop.column;
+    const bool north = environment.state().cell.row < world.scenario().stop.row;
+    return Action{east ? Move::kEast : north ? Move::kNorth : Move::kHover, 2};
+  });
+  const std::vector<FlightSlot> expected = Collections(world, flight);
+  const auto shown = DataBlock(DrawFlightMap("map", world, flight).script, "collections");
+  EXPECT_EQ(shown.size(), expected.size());
+  EXPECT_LT(shown.size(), flight.slots.size() - 1);
+}
+
+TEST(FlightMap, HasTheSensorsInCellsWithTheirNumbers) {
+  const World world = SmallWorld();
+  const auto sensors =
+      DataBlock(DrawFlightMap("map", world, FlyBaseline(world, BaselineKind::kAoi)).script, "sensors");
+  ASSERT_EQ(sensors.size(), 3U);
+  const double expected[3][4] = {
+      {2, 2, 2, 1}, {8.5, 5.5, 2, 2}, {10, 1, 2, 3}};  // column, row, radius, number
+  for (size_t n = 0; n < 3; ++n) {
+    for (size_t i = 0; i < 4; ++i) {
+      EXPECT_DOUBLE_EQ(sensors[n][i], expected[n][i]) << n << " " << i;
+    }
+  }
+}
+
+TEST(FlightMap, IsTwoFilesThatStayTheSame) {
+  const World world = SmallWorld();
+  const Picture picture = DrawFlightMap("AoI-based", world, FlyBaseline(world, BaselineKind::kAoi));
+  const TemporaryFolder folder("flight-map");
+  WritePicture(picture, folder.path() / "map");
+  WritePicture(picture, folder.path() / "again");
+  ASSERT_TRUE(ParsesAsXml(folder.path() / "map.svg"));
+  const std::string svg = ReadFile(folder.path() / "map.svg");
+  for (const char* text : {"AoI-based", "column", "row", "slot", "start", "stop", "path"}) {
+    EXPECT_EQ(Count(svg, std::string("<text>") + text + "</text>"), 1) << text;
+  }
+  EXPECT_EQ(svg, ReadFile(folder.path() / "again.svg"));
+  const std::string png = ReadFile(folder.path() / "map.png");
+  EXPECT_EQ(png, ReadFile(folder.path() / "again.png"));
+  EXPECT_EQ(PngSize(png), std::pair(2U * picture.width_px, 2U * picture.height_px));
+}
+
+TEST(FlightMap, CanBeDrawnOfAFlightThatEndedEarlyWithoutCollections) {
+  const World world = SmallWorld();
+  const Flight flight = Fly(world, [](const Environment&) { return Action{Move::kHover, 0}; });
+  ASSERT_FALSE(flight.arrived());
+  const TemporaryFolder folder("flight-map");
+  WritePicture(DrawFlightMap("hovered", world, flight), folder.path() / "map");
+  EXPECT_TRUE(ParsesAsXml(folder.path() / "map.svg"));
+}
+
+}  // namespace
+}  // namespace fresco

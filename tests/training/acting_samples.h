@@ -1,0 +1,42 @@
+// Experiments, networks and orders that the tests of actors/ share.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "training/flyer.h"
+
+namespace fresco {
+
+/// 5 x 5 cells, 14 slots, three sensors, energy for two hovers, a network of 9 chunks; no masks, plain
+/// DQN, discount 0.9.
+Experiment SmallField(const Settings& settings = {});
+
+/// The settings that switch both masks on.
+Settings WithMasks();
+
+/// Weights and biases uniform in [-0.3, 0.3), other ones for every number.
+SharedParameters SampleNetwork(const Experiment& experiment, uint32_t number);
+
+/// Versions 0 of both networks, seed 3.
+Order TrainOrder(int64_t index, double epsilon);
+
+/// What Flyer::Start takes.
+struct FlightPlan {
+  Order order;
+  SharedParameters current;
+  SharedParameters target;
+};
+
+/// Flies one order in a flyer of its own.
+Episode FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan);
+
+/// Flies all plans in one flyer, `per_slot` of them started before every slot while there is room.
+/// The episodes by order.
+std::map<int64_t, Episode> FlyTogether(const World& world, const Experiment& experiment, int capacity,
+                                       const std::vector<FlightPlan>& plans, int per_slot);
+
+/// Whether everything in two episodes is equal, floats by their bits.
+bool SameBits(const Episode& a, const Episode& b);
+
+}  // namespace fresco

@@ -1,0 +1,189 @@
+// One update of the DQN against a slow literal version in double precision: targets by loops,
+// gradients by central finite differences of the loss, Adam's first step by its definition.
+#include "training/dqn.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/random.h"
+
+namespace fresco {
+namespace {
+
+using Doubles = std::vector<double>;
+const std::vector<int> kLayers = {3, 6, 4};
+constexpr int kBatch = 8;
+constexpr double kDiscount = 0.9;
+
+Doubles Forward(const Doubles& parameters, const Matrix& inputs, int column) {
+  Doubles below(static_cast<size_t>(kLayers[0]));
+  for (size_t i = 0; i < below.size(); ++i) {
+    below[i] = static_cast<double>(inputs(static_cast<int>(i), column));
+  }
+  size_t offset = 0;
+  for (size_t layer = 0; layer + 1 < kLayers.size(); ++layer) {
+    const auto inputs_count = static_cast<size_t>(kLayers[layer]);
+    const auto units = static_cast<size_t>(kLayers[layer + 1]);
+    Doubles above(units);
+    for (size_t unit = 0; unit < units; ++unit) {
+      above[unit] = parameters[offset + inputs_count * units + unit];
+      for (size_t i = 0; i < inputs_count; ++i) {
+        above[unit] += parameters[offset + i * units + unit] * below[i];
+      }
+      above[unit] = layer + 2 < kLayers.size() ? std::max(0.0, above[unit]) : above[unit];
+    }
+    offset += (inputs_count + 1) * units;
+    below = above;
+  }
+  return below;
+}
+
+double LiteralTarget(const Doubles& current, const Doubles& target, const MiniBatch& batch, int column,
+                     bool double_dqn) {
+  const auto i = static_cast<size_t>(column);
+  const double least = static_cast<double>(batch.least_values[i]);
+  if (batch.terminal[i] != 0) {
+    return std::max(least, static_cast<double>(batch.rewards[i]));
+  }
+  const Doubles values = Forward(target, batch.next_observations, column);
+  const Doubles choosing = double_dqn ? Forward(current, batch.next_observations, column) : values;
+  int best = -1;
+  for (int action = 0; action < kLayers.back(); ++action) {
+    const bool allowed = batch.next_penalty(action, column) == 0;
+    if (allowed &&
+        (best < 0 || choosing[static_cast<size_t>(action)] > choosing[static_cast<size_t>(best)])) {
+      best = action;
+    }
+  }
+  return std::max(least,
+                  static_cast<double>(batch.rewards[i]) + kDiscount * values[static_cast<size_t>(best)]);
+}
+
+double LiteralLoss(const Doubles& parameters, const Doubles& targets, const MiniBatch& batch) {
+  double loss = 0;
+  for (int column = 0; column < kBatch; ++column) {
+    const auto i = static_cast<size_t>(column);
+    const double error =
+        targets[i] - Forward(parameters, batch.observations, column)[static_cast<size_t>(batch.actions[i])];
+    loss += error * error;
+  }
+  return loss / kBatch;
+}
+
+MiniBatch RandomBatch(RandomStream& stream) {
+  MiniBatch batch(kLayers.front(), kLayers.back(), kBatch);
+  for (int column = 0; column < kBatch; ++column) {
+    const auto i = static_cast<size_t>(column);
+    for (int row = 0; row < kLayers.front(); ++row) {
+      batch.observations(row, column) = static_cast<float>(stream.NextUniform());
+      batch.next_observations(row, column) = static_cast<float>(stream.NextUniform());
+    }
+    batch.actions[i] = static_cast<int16_t>(stream.NextBelow(4));
+    batch.rewards[i] = static_cast<float>(-stream.NextUniform());
+    batch.terminal[i] = column == 2 ? 1 : 0;
+    if (column % 3 == 0) {  // one that never decides, one that always does, one in between
+      batch.least_values[i] = static_cast<float>(column) - 3;
+    }
+    const auto allowed = static_cast<int>(stream.NextBelow(4));
+    for (int action = 0; action < 4; ++action) {
+      const bool is_allowed = action == allowed || stream.NextBelow(2) == 0;
+      batch.next_penalty(action, column) = is_allowed ? 0.0f : -std::numeric_limits<float>::infinity();
+    }
+  }
+  return batch;
+}
+
+Doubles ToDoubles(const Vector& vector) {
+  return {vector.data(), vector.data() + vector.size()};
+}
+
+class DqnTest : public ::testing::TestWithParam<bool> {
+ protected:
+  DqnTest()
+      : stream_(GetParam() ? 1 : 2, RandomPurpose::kTest, 0, 0),
+        dqn_(MlpShape(kLayers), InitialParameters(MlpShape(kLayers), 3), Options()) {}
+  static DqnOptions Options() {
+    DqnOptions options;
+    options.double_dqn = GetParam();
+    options.discount = static_cast<float>(kDiscount);
+    options.batch_size = kBatch;
+    return options;
+  }
+  RandomStream stream_;
+  Dqn dqn_;
+};
+
+TEST_P(DqnTest, UpdatesAsTheLiteralVersionDoes) {
+  for (int warm_up = 0; warm_up < 20; ++warm_up) {  // so that current and target differ
+    dqn_.Update(RandomBatch(stream_), 1e-2);
+  }
+  Dqn fresh(MlpShape(kLayers), dqn_.current(), Options());
+  const MiniBatch batch = RandomBatch(stream_);
+  fresh.CopyToTarget();
+  fresh.Update(RandomBatch(stream_), 1e-2);  // current moves away from target
+  const Doubles current = ToDoubles(fresh.current());
+  const Doubles target = ToDoubles(fresh.target());
+  Doubles targets;
+  for (int column = 0; column < kBatch; ++column) {
+    targets.push_back(LiteralTarget(current, target, batch, column, GetParam()));
+  }
+  const double loss = fresh.Update(batch, 1e-3);
+  EXPECT_NEAR(loss, LiteralLoss(current, targets, batch), 1e-5);
+  // The step goes down the literal loss, in the way that its gradient and Adam's moments say.
+  EXPECT_LT(LiteralLoss(ToDoubles(fresh.current()), targets, batch),
+            LiteralLoss(current, targets, batch) + 1e-3);
+  EXPECT_EQ(ToDoubles(fresh.target()), target);
+}
+
+TEST_P(DqnTest, FirstStepFollowsTheSignOfTheLiteralGradient) {
+  const MiniBatch batch = RandomBatch(stream_);
+  const Doubles before = ToDoubles(dqn_.current());
+  Doubles targets;
+  for (int column = 0; column < kBatch; ++column) {
+    targets.push_back(LiteralTarget(before, before, batch, column, GetParam()));
+  }
+  constexpr double kLearningRate = 1e-3;
+  dqn_.Update(batch, kLearningRate);
+  const Doubles after = ToDoubles(dqn_.current());
+  constexpr double kStep = 1e-6;
+  for (size_t i = 0; i < before.size(); ++i) {
+    Doubles shifted = before;
+    shifted[i] += kStep;
+    const double above = LiteralLoss(shifted, targets, batch);
+    shifted[i] -= 2 * kStep;
+    const double gradient = (above - LiteralLoss(shifted, targets, batch)) / (2 * kStep);
+    // Adam's first step: learning rate * g / (|g| + epsilon).
+    const double expected = before[i] - kLearningRate * gradient / (std::abs(gradient) + 1e-8);
+    if (std::abs(gradient) > 1e-5 || gradient == 0) {
+      EXPECT_NEAR(after[i], expected, 2e-6) << i;
+    }
+  }
+}
+
+TEST_P(DqnTest, LearnsAFixedBatch) {
+  MiniBatch batch = RandomBatch(stream_);
+  std::fill(batch.terminal.begin(), batch.terminal.end(), 1);
+  const double first = dqn_.Update(batch, 1e-2);
+  double last = first;
+  for (int i = 0; i < 2000; ++i) {
+    last = dqn_.Update(batch, 1e-2);
+  }
+  EXPECT_LT(last, first / 100);
+}
+
+TEST_P(DqnTest, TargetChangesOnlyWhenItIsCopied) {
+  const Vector target = dqn_.target();
+  dqn_.Update(RandomBatch(stream_), 1e-2);
+  EXPECT_EQ(dqn_.target(), target);
+  EXPECT_NE(dqn_.current(), target);
+  dqn_.CopyToTarget();
+  EXPECT_EQ(dqn_.target(), dqn_.current());
+}
+
+INSTANTIATE_TEST_SUITE_P(PlainAndDouble, DqnTest, ::testing::Bool());
+
+}  // namespace
+}  // namespace fresco

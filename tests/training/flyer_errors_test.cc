@@ -1,0 +1,120 @@
+// The temporal-difference errors that a flyer sends, and whether its episodes are flights of the
+// environment.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "tests/training/literal_flight.h"
+
+namespace fresco {
+namespace {
+
+struct ErrorVariant {
+  const char* name;
+  bool double_dqn;
+  bool masks;
+};
+
+class FlyerErrors : public ::testing::TestWithParam<ErrorVariant> {
+ protected:
+  static Experiment ExperimentOf(const ErrorVariant& variant) {
+    Settings settings = variant.masks ? WithMasks() : Settings{};
+    settings.emplace_back("agent.double_dqn", variant.double_dqn ? "true" : "false");
+    return SmallField(settings);
+  }
+
+  FlightPlan Plan(int index) const {
+    const auto number = static_cast<uint32_t>(index);
+    return {TrainOrder(index, (index % 5) / 4.0), SampleNetwork(experiment_, number),
+            SampleNetwork(experiment_, 100 + number)};
+  }
+
+  static constexpr int kOrders = 80;
+  Experiment experiment_ = ExperimentOf(GetParam());
+  World world_{experiment_.scenario()};
+};
+
+TEST_P(FlyerErrors, AreYMinusQComputedLiterally) {
+  for (int index = 0; index < kOrders; ++index) {
+    const FlightPlan plan = Plan(index);
+    const Episode episode = FlyAlone(world_, experiment_, plan);
+    const auto masks = MasksOf(world_, experiment_, episode);
+    ASSERT_EQ(episode.td_errors.size(), episode.actions.size());
+    for (int i = 0; i < episode.transitions(); ++i) {
+      const Mask& next_mask = masks[static_cast<size_t>(i) + 1];
+      EXPECT_NEAR(episode.td_errors[static_cast<size_t>(i)],
+                  LiteralTdError(experiment_, plan, episode, i, next_mask), 1e-5)
+          << index << ", " << i;
+    }
+  }
+}
+
+TEST_P(FlyerErrors, OfTerminalTransitionsHaveNoBootstrapWhateverTheOutcome) {
+  std::set<Outcome> outcomes;
+  for (int index = 0; index < kOrders; ++index) {
+    const FlightPlan plan = Plan(index);
+    const Episode episode = FlyAlone(world_, experiment_, plan);
+    const State& last = episode.states[episode.states.size() - 2];
+    const Doubles values = LiteralValues(experiment_, *plan.current, last);
+    const double value = values[static_cast<size_t>(episode.actions.back())];
+    EXPECT_NEAR(episode.td_errors.back(), episode.rewards.back() - value, 1e-5);
+    outcomes.insert(episode.outcome);
+  }
+  const std::set<Outcome> expected =
+      GetParam().masks ? std::set{Outcome::kArrived} : std::set{Outcome::kOutOfTime, Outcome::kOutOfEnergy};
+  EXPECT_EQ(outcomes, expected);
+}
+
+TEST_P(FlyerErrors, AreAllThatTheTargetNetworkChanges) {
+  for (int index = 0; index < kOrders; ++index) {
+    FlightPlan plan = Plan(index);
+    Episode episode = FlyAlone(world_, experiment_, plan);
+    plan.target = SampleNetwork(experiment_, 1000);
+    const Episode other = FlyAlone(world_, experiment_, plan);
+    EXPECT_EQ(episode.td_errors.back(), other.td_errors.back());
+    if (episode.transitions() > 1) {
+      EXPECT_NE(episode.td_errors, other.td_errors);
+    }
+    episode.td_errors = other.td_errors;
+    EXPECT_TRUE(SameBits(episode, other));
+  }
+}
+
+TEST_P(FlyerErrors, BelongToEpisodesThatTheEnvironmentFliesAgain) {
+  const auto mask_bytes = static_cast<size_t>(MaskSize(world_));
+  for (int index = 0; index < kOrders; ++index) {
+    const Episode episode = FlyAlone(world_, experiment_, Plan(index));
+    const auto masks = MasksOf(world_, experiment_, episode);
+    Environment environment(world_);
+    ASSERT_EQ(episode.states.size(), episode.actions.size() + 1);
+    ASSERT_EQ(episode.next_masks.size(), episode.actions.size() * mask_bytes);
+    for (size_t i = 0; i < episode.actions.size(); ++i) {
+      ASSERT_EQ(environment.outcome(), Outcome::kFlying);
+      const StepResult result = environment.Step(world_.ActionAt(episode.actions[i]));
+      const State& state = episode.states[i + 1];
+      EXPECT_EQ(masks[i][static_cast<size_t>(episode.actions[i])], 1);
+      EXPECT_EQ(episode.rewards[i], static_cast<float>(result.reward));
+      EXPECT_EQ(state.slot, static_cast<int>(i) + 2);
+      EXPECT_EQ(state.cell, environment.state().cell);
+      EXPECT_EQ(state.time_margin, environment.state().time_margin);
+      EXPECT_EQ(state.energy_margin_j, environment.state().energy_margin_j);
+      EXPECT_EQ(state.aoi, environment.state().aoi);
+      for (size_t bit = 0; bit < 8 * mask_bytes; ++bit) {
+        const bool allowed = bit < masks[i + 1].size() && masks[i + 1][bit] != 0;
+        EXPECT_EQ((episode.next_masks[i * mask_bytes + bit / 8] >> (bit % 8)) & 1, allowed ? 1 : 0);
+      }
+    }
+    EXPECT_EQ(episode.outcome, environment.outcome());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, FlyerErrors,
+                         ::testing::Values(ErrorVariant{"Plain", false, false},
+                                           ErrorVariant{"Double", true, false},
+                                           ErrorVariant{"PlainMasked", false, true},
+                                           ErrorVariant{"DoubleMasked", true, true}),
+                         [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace fresco

@@ -1,0 +1,55 @@
+#include "tests/training/recorded_run.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "core/check.h"
+
+namespace fresco {
+
+RecordedRun::RecordedRun(const Settings& settings)
+    : experiment(SmallExperiment(settings)),
+      world(experiment.scenario()),
+      trainer(experiment, world, Output()) {
+  weights.push_back(trainer.current());
+  trainer.Begin();
+  orders_at_begin = orders.size();
+}
+
+TrainerOutput RecordedRun::Output() {
+  TrainerOutput output;
+  output.order = [this](const Order& order) { orders.push_back(order); };
+  output.version = [this](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
+    auto& versions = kind == NetworkKind::kCurrent ? current_versions : target_versions;
+    EXPECT_EQ(version, static_cast<int32_t>(versions.size())) << "versions come by their numbers";
+    versions.push_back(std::move(parameters));
+  };
+  output.evaluation = [this](const Evaluation& evaluation) { evaluations.push_back(evaluation); };
+  output.updated = [this] { weights.push_back(trainer.current()); };
+  return output;
+}
+
+Episode RecordedRun::Fly(const Order& order) const {
+  return FlyOrder(world, experiment, order, current_versions.at(static_cast<size_t>(order.current_version)),
+                  target_versions.at(static_cast<size_t>(order.target_version)));
+}
+
+void RecordedRun::Commit(Episode episode) {
+  constexpr size_t kEndless = 1000;  // orders; a run of 60 episodes has fewer
+  FRESCO_CHECK(episodes.size() < kEndless);
+  episode.order_index = next().index;
+  const Order order = next();
+  trainer.Commit(order, episode);
+  episodes.push_back(std::move(episode));
+  progress.push_back(trainer.progress());
+  orders_written.push_back(orders.size());
+}
+
+void RecordedRun::Finish() {
+  while (!trainer.finished()) {
+    Commit(Fly(next()));
+  }
+}
+
+}  // namespace fresco

@@ -1,0 +1,173 @@
+#include "training/replay_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace fresco {
+namespace {
+
+constexpr int kInputs = 3;
+constexpr int kActions = 11;  // two bytes of mask, the second one not full
+
+/// Whether action `action` is allowed after transition `k`: some pattern, never empty.
+bool AllowedAfter(int k, int action) {
+  return action == k % kActions || (k * 7 + action * action) % 3 == 0;
+}
+
+void InsertTransition(int k, ReplayMemory& memory) {
+  const auto value = static_cast<float>(k);
+  const std::vector<float> observation = {value, value + 0.25f, value + 0.5f};
+  const std::vector<float> next_observation = {-value, 1 / (value + 1), value * value};
+  std::vector<uint8_t> mask(2, 0);
+  for (int action = 0; action < kActions; ++action) {
+    if (AllowedAfter(k, action)) {
+      mask[static_cast<size_t>(action / 8)] |= static_cast<uint8_t>(1 << (action % 8));
+    }
+  }
+  memory.Insert({observation, next_observation, static_cast<int16_t>(k % kActions), value * 0.5f - 3,
+                 k % 4 == 3, mask, value - 100});
+}
+
+ReplayMemory MemoryOf(int transitions, int64_t capacity) {
+  ReplayMemory memory(kInputs, kActions, capacity);
+  for (int k = 0; k < transitions; ++k) {
+    InsertTransition(k, memory);
+  }
+  return memory;
+}
+
+/// Which transitions the columns of the batch are.
+std::vector<int> Drawn(const MiniBatch& batch) {
+  std::vector<int> drawn;
+  for (int column = 0; column < batch.size(); ++column) {
+    drawn.push_back(static_cast<int>(std::lround(batch.observations(0, column))));
+  }
+  return drawn;
+}
+
+std::vector<int> Draw(const ReplayMemory& memory, int count, uint32_t stream_index) {
+  MiniBatch batch(kInputs, kActions, count);
+  RandomStream stream(1, RandomPurpose::kTest, stream_index, 0);
+  memory.Sample(stream, batch);
+  return Drawn(batch);
+}
+
+std::set<int> Range(int first, int end) {
+  std::set<int> range;
+  for (int k = first; k < end; ++k) {
+    range.insert(k);
+  }
+  return range;
+}
+
+TEST(ReplayMemory, GivesBackWhatWasInserted) {
+  const ReplayMemory memory = MemoryOf(23, 10);
+  MiniBatch batch(kInputs, kActions, 200);
+  RandomStream stream(1, RandomPurpose::kTest, 0, 0);
+  memory.Sample(stream, batch);
+  ASSERT_EQ(batch.size(), 200);
+  const std::vector<int> drawn = Drawn(batch);
+  for (int column = 0; column < batch.size(); ++column) {
+    const auto i = static_cast<size_t>(column);
+    const int k = drawn[i];
+    const auto value = static_cast<float>(k);
+    EXPECT_EQ(batch.least_values[i], value - 100);
+    EXPECT_EQ(batch.observations.col(column),
+              Vector::Map(std::vector{value, value + 0.25f, value + 0.5f}.data(), 3));
+    EXPECT_EQ(batch.next_observations.col(column),
+              Vector::Map(std::vector{-value, 1 / (value + 1), value * value}.data(), 3));
+    EXPECT_EQ(batch.actions[i], k % kActions);
+    EXPECT_EQ(batch.rewards[i], value * 0.5f - 3);
+    EXPECT_EQ(batch.terminal[i], k % 4 == 3 ? 1 : 0);
+    for (int action = 0; action < kActions; ++action) {
+      EXPECT_EQ(batch.next_penalty(action, column),
+                AllowedAfter(k, action) ? 0.0f : -std::numeric_limits<float>::infinity());
+    }
+  }
+}
+
+TEST(ReplayMemory, GrowsToItsCapacity) {
+  ReplayMemory memory(kInputs, kActions, 5);
+  EXPECT_EQ(memory.size(), 0);
+  for (int k = 0; k < 13; ++k) {
+    InsertTransition(k, memory);
+    EXPECT_EQ(memory.size(), std::min(k + 1, 5));
+  }
+}
+
+TEST(ReplayMemory, HoldsTheLatestTransitions) {
+  for (const int transitions : {1, 2, 9, 10, 11, 19, 20, 21, 57}) {
+    const std::vector<int> drawn = Draw(MemoryOf(transitions, 10), 400, 2);
+    EXPECT_EQ(std::set<int>(drawn.begin(), drawn.end()), Range(std::max(0, transitions - 10), transitions));
+  }
+}
+
+TEST(ReplayMemory, HoldsOneTransitionInACapacityOfOne) {
+  EXPECT_EQ(Draw(MemoryOf(8, 1), 3, 2), (std::vector{7, 7, 7}));
+}
+
+TEST(ReplayMemory, DrawsUniformlyWithReplacement) {
+  constexpr int kPlaces = 20;
+  constexpr int kDraws = 20'000;
+  const std::vector<int> drawn = Draw(MemoryOf(kPlaces, 50), kDraws, 3);
+  std::vector<int> counts(kPlaces, 0);
+  int repeated = 0;
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    ++counts.at(static_cast<size_t>(drawn[i]));
+    repeated += i > 0 && drawn[i] == drawn[i - 1] ? 1 : 0;
+  }
+  constexpr double kExpected = double{kDraws} / kPlaces;
+  double chi_square = 0;
+  for (const int count : counts) {
+    chi_square += (count - kExpected) * (count - kExpected) / kExpected;
+  }
+  EXPECT_LT(chi_square, 43.8);  // 19 degrees of freedom: exceeded once in a thousand
+  EXPECT_GT(chi_square, 5.4);   // and not reached once in a thousand
+  EXPECT_NEAR(repeated, kExpected, 5 * std::sqrt(kExpected));
+}
+
+TEST(ReplayMemory, DrawsTheSameBatchFromTheSameStream) {
+  const ReplayMemory memory = MemoryOf(40, 40);
+  EXPECT_EQ(Draw(memory, 100, 4), Draw(MemoryOf(40, 40), 100, 4));
+  EXPECT_NE(Draw(memory, 100, 4), Draw(memory, 100, 5));
+}
+
+TEST(ReplayMemory, OverwritesAllOfABatch) {
+  const ReplayMemory memory = MemoryOf(30, 30);
+  MiniBatch used(kInputs, kActions, 50);
+  MiniBatch fresh(kInputs, kActions, 50);
+  RandomStream stream(1, RandomPurpose::kTest, 6, 0);
+  memory.Sample(stream, used);
+  RandomStream continued = stream;
+  memory.Sample(stream, used);
+  memory.Sample(continued, fresh);
+  EXPECT_EQ(used.observations, fresh.observations);
+  EXPECT_EQ(used.next_observations, fresh.next_observations);
+  EXPECT_EQ(used.actions, fresh.actions);
+  EXPECT_EQ(used.rewards, fresh.rewards);
+  EXPECT_EQ(used.terminal, fresh.terminal);
+  EXPECT_TRUE((used.next_penalty.array() == fresh.next_penalty.array()).all());
+}
+
+TEST(ReplayMemoryDeathTest, ChecksThatThereIsSomethingToDraw) {
+  const ReplayMemory memory = MemoryOf(0, 10);
+  EXPECT_DEATH(Draw(memory, 1, 0), "size_ >= 1");
+}
+
+TEST(ReplayMemoryDeathTest, ChecksTheSizesOfATransition) {
+  ReplayMemory memory(kInputs, kActions, 10);
+  const std::vector<float> observation(kInputs);
+  const std::vector<float> longer(kInputs + 1);
+  const std::vector<uint8_t> mask(2);
+  const std::vector<uint8_t> shorter(1);
+  EXPECT_DEATH(memory.Insert({longer, observation, 0, 0, false, mask}), "observation.size");
+  EXPECT_DEATH(memory.Insert({observation, observation, 0, 0, false, shorter}), "next_mask.size");
+}
+
+}  // namespace
+}  // namespace fresco

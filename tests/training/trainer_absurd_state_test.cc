@@ -1,0 +1,162 @@
+// States that no training comes to, as a file may hold them in spite of its CRC: refused in words, or gone on
+// with to the end. Thousands of them, a few fields of a true state changed at random.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "tests/training/recorded_run.h"
+
+namespace fresco {
+namespace {
+
+class AbsurdState : public ::testing::Test {
+ protected:
+  AbsurdState() {
+    whole_.Finish();
+    RecordedRun run;
+    for (size_t committed = 0; committed < whole_.episodes.size(); ++committed) {
+      if (committed % 9 == 0 || committed + 2 > whole_.episodes.size()) {
+        states_.push_back(run.trainer.Save());
+      }
+      run.Commit(whole_.episodes[committed]);
+    }
+    states_.push_back(run.trainer.Save());
+  }
+
+  int64_t AbsurdNumber() {
+    constexpr int64_t kNumbers[] = {std::numeric_limits<int64_t>::min(),
+                                    std::numeric_limits<int64_t>::max(),
+                                    std::numeric_limits<int32_t>::min(),
+                                    std::numeric_limits<int32_t>::max(),
+                                    -1,
+                                    0,
+                                    1,
+                                    7,
+                                    100,
+                                    10'000};
+    return kNumbers[stream_.NextBelow(std::size(kNumbers))];
+  }
+
+  /// Sets a number to an absurd one, or to one beside it.
+  template <class Number>
+  void Change(Number& number) {
+    const auto beside = static_cast<uint64_t>(number) + (stream_.NextBelow(2) == 0 ? 1 : ~uint64_t{0});
+    number = static_cast<Number>(stream_.NextBelow(2) == 0 ? AbsurdNumber() : static_cast<int64_t>(beside));
+  }
+
+  void ChangeProgress(TrainerProgress& progress) {
+    switch (stream_.NextBelow(7)) {
+      case 0:
+        return Change(progress.committed_orders);
+      case 1:
+        return Change(progress.episodes);
+      case 2:
+        return Change(progress.transitions);
+      case 3:
+        return Change(progress.updates);
+      case 4:
+        return Change(progress.replay_size);
+      case 5:
+        return Change(progress.current_version);
+      default:
+        return Change(progress.target_version);
+    }
+  }
+
+  void ChangeOrders(std::vector<OrderInFlight>& orders) {
+    if (orders.empty()) {
+      orders.push_back({});
+    }
+    OrderInFlight& entry = orders[stream_.NextBelow(static_cast<uint32_t>(orders.size()))];
+    switch (stream_.NextBelow(6)) {
+      case 0:
+        return Change(entry.order.index);
+      case 1:
+        return Change(entry.order.current_version);
+      case 2:
+        return Change(entry.order.target_version);
+      case 3:
+        return Change(entry.updates_at_writing);
+      case 4:
+        entry.order.kind = OrderKind::kEvaluate;
+        return;
+      default:
+        orders.pop_back();
+    }
+  }
+
+  void ChangeOther(TrainingState& state) {
+    switch (stream_.NextBelow(4)) {
+      case 0:
+        return Change(state.adam.steps);
+      case 1:
+        return state.actions.empty() ? state.actions.push_back(0) : state.actions.pop_back();
+      case 2:
+        state.actions.resize(std::min<size_t>(state.actions.size(), stream_.NextBelow(500)));
+        return;
+      default:
+        return Change(
+            state.versions[stream_.NextBelow(static_cast<uint32_t>(state.versions.size()))].version);
+    }
+  }
+
+  void ChangeSomething(TrainingState& state) {
+    switch (stream_.NextBelow(3)) {
+      case 0:
+        return ChangeProgress(state.progress);
+      case 1:
+        return ChangeOrders(state.orders);
+      default:
+        return ChangeOther(state);
+    }
+  }
+
+  /// Goes on for some orders, with any episode that fits.
+  void GoOn(Trainer& trainer, std::vector<Order>& orders) {
+    constexpr size_t kOrders = 30;
+    for (size_t next = 0; next < orders.size() && next < kOrders && !trainer.finished(); ++next) {
+      Episode episode = whole_.episodes[next];
+      episode.order_index = orders[next].index;
+      trainer.Commit(Order(orders[next]), episode);
+    }
+  }
+
+  RecordedRun whole_;
+  std::vector<TrainingState> states_;
+  RandomStream stream_{1, RandomPurpose::kTest, 0, 0};
+};
+
+TEST_F(AbsurdState, IsRefusedOrGoneOnWith) {
+  constexpr int kTries = 4000;
+  int refused = 0;
+  for (int i = 0; i < kTries; ++i) {
+    SCOPED_TRACE(i);
+    TrainingState state = states_[stream_.NextBelow(static_cast<uint32_t>(states_.size()))];
+    for (uint32_t changes = 1 + stream_.NextBelow(3); changes > 0; --changes) {
+      ChangeSomething(state);
+    }
+    std::vector<Order> orders;
+    Trainer trainer(whole_.experiment, whole_.world,
+                    {[&](const Order& order) { orders.push_back(order); },
+                     [](NetworkKind, int32_t, const std::shared_ptr<const Vector>&) {},
+                     [](const Evaluation&) {},
+                     {}});
+    try {
+      trainer.Resume(state);
+    } catch (const Error&) {
+      ++refused;
+      continue;
+    }
+    EXPECT_TRUE(trainer.finished() || !orders.empty()) << "nobody would ever fly";
+    GoOn(trainer, orders);
+  }
+  EXPECT_GT(refused, kTries / 2);
+  EXPECT_LT(refused, kTries);
+}
+
+}  // namespace
+}  // namespace fresco

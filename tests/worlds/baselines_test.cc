@@ -1,0 +1,138 @@
+#include "worlds/uav/baselines.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/worlds/test_scenarios.h"
+#include "worlds/uav/flight.h"
+
+namespace fresco {
+namespace {
+
+constexpr BaselineKind kKinds[] = {BaselineKind::kAoi, BaselineKind::kDistance};
+
+// One row of seven cells, sensors over some of them, each covered from its own cell only.
+Scenario RowScenario(int slots, int home_column, const std::vector<int>& sensor_columns) {
+  Scenario scenario;
+  scenario.columns = 7;
+  scenario.rows = 1;
+  scenario.slots = slots;
+  scenario.start = scenario.stop = {home_column, 0};
+  scenario.coverage_radius_m = 0;
+  for (const int column : sensor_columns) {
+    scenario.sensors.push_back({25.0 * column, 0, 1});
+  }
+  return scenario;
+}
+
+void ExpectFlight(const Flight& flight, const std::vector<int>& columns, const std::vector<int>& scheduled) {
+  std::vector<int> flown_columns;
+  std::vector<int> flown_scheduled;
+  for (const FlightSlot& slot : flight.slots) {
+    flown_columns.push_back(slot.state.cell.column);
+    flown_scheduled.push_back(slot.action.schedule);
+  }
+  EXPECT_EQ(flown_columns, columns);
+  EXPECT_EQ(flown_scheduled, scheduled);
+  EXPECT_TRUE(flight.arrived());
+}
+
+TEST(AoiBaseline, FliesToTheOldestSensorAndHomeInTime) {
+  const World world(RowScenario(14, 0, {1, 5}));
+  ExpectFlight(FlyBaseline(world, BaselineKind::kAoi),  //
+               {0, 1, 2, 3, 4, 5, 4, 3, 2, 1, 2, 1, 0, 0}, {0, 1, 0, 0, 0, 2, 0, 0, 0, 1, 0, 1, 0, 0});
+}
+
+// The round 1, 2, 3 ends over sensor 3, with which the next one therefore begins: 3, 2, 1; then 1, 2.
+TEST(DistanceBaseline, FliesInRoundsToTheNearestSensor) {
+  const World world(RowScenario(20, 2, {1, 3, 6}));
+  ExpectFlight(FlyBaseline(world, BaselineKind::kDistance),
+               {2, 1, 2, 3, 4, 5, 6, 6, 5, 4, 3, 2, 1, 1, 2, 3, 4, 3, 2, 2},
+               {0, 1, 0, 2, 0, 0, 3, 3, 0, 0, 2, 0, 1, 1, 0, 2, 0, 2, 0, 0});
+}
+
+TEST(Baselines, FlyAlongTheLongerAxisAndColumnsFirst) {
+  Scenario scenario;
+  scenario.columns = scenario.rows = 5;
+  scenario.slots = 30;
+  scenario.start = scenario.stop = {0, 0};
+  scenario.coverage_radius_m = 0;
+  scenario.sensors = {{50, 75, 1}};
+  const World world(scenario);
+  const std::vector<Move> expected = {Move::kNorth, Move::kEast,  Move::kNorth,
+                                      Move::kEast,  Move::kNorth, Move::kHover};
+  for (const BaselineKind kind : kKinds) {
+    const Flight flight = FlyBaseline(world, kind);
+    for (size_t slot = 0; slot < expected.size(); ++slot) {
+      EXPECT_EQ(flight.slots[slot].action.move, expected[slot]) << slot;
+    }
+  }
+}
+
+TEST(Baselines, ServeTheOldestCoveredSensorOnTheWay) {
+  Scenario scenario = RowScenario(20, 0, {0, 1, 2});
+  scenario.coverage_radius_m = 1000;
+  const World world(scenario);
+  for (const BaselineKind kind : kKinds) {
+    const Flight flight = FlyBaseline(world, kind);
+    for (int slot = 0; slot < 19; ++slot) {
+      EXPECT_EQ(flight.slots[static_cast<size_t>(slot)].action.schedule, slot % 3 + 1);
+    }
+  }
+}
+
+TEST(Baselines, AimAtTheNearestCellOfTheGrid) {
+  Scenario scenario = RowScenario(20, 0, {});
+  scenario.sensors = {{62.5, 300, 1}};  // half-way between columns 2 and 3, far north of the grid
+  const World world(scenario);
+  for (const BaselineKind kind : kKinds) {
+    const Flight flight = FlyBaseline(world, kind);
+    EXPECT_EQ(flight.slots[2].state.cell, (Cell{2, 0}));
+    EXPECT_EQ(flight.slots[12].state.cell, (Cell{2, 0}));
+  }
+}
+
+TEST(Baselines, AlwaysArrive) {
+  for (uint32_t index = 0; index < 10000; ++index) {
+    const World world(RandomScenario(index));
+    for (const BaselineKind kind : kKinds) {
+      ASSERT_TRUE(FlyBaseline(world, kind).arrived()) << index;
+    }
+  }
+}
+
+// Nineteen slots flown but one: the second hover over the sensor is out of reach. Over the stop the
+// slack that is left can't be hovered either, and is flown to and fro.
+TEST(Baselines, FlyHomeForGoodOnceAWantedMoveIsOutOfReach) {
+  Scenario scenario = RowScenario(20, 0, {3});
+  scenario.initial_energy_j = 18 * 112.8758628 + 219.82 + 1;
+  const World world(scenario);
+  for (const BaselineKind kind : kKinds) {
+    ExpectFlight(FlyBaseline(world, kind), {0, 1, 2, 3, 3, 2, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0},
+                 {0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  }
+}
+
+TEST(Baselines, BeginAfreshAfterReset) {
+  const World world(TableOneScenario());
+  for (const BaselineKind kind : kKinds) {
+    Baseline baseline(kind, world);
+    const auto policy = [&](const Environment& environment) { return baseline.Choose(environment); };
+    const Flight first = Fly(world, policy);
+    baseline.Reset();
+    EXPECT_EQ(Figures(world, Fly(world, policy)).total_aoi, Figures(world, first).total_aoi);
+  }
+}
+
+// A first trial reported 3,590 to 3,690, rounded; the optimum is 2789. This is a regression check only:
+// the exact totals are this code's own, and the rule that a target is chosen after the slot's
+// transmission was settled with that trial in view (before it, kAoi comes to 3393).
+TEST(Baselines, KeepTheirTotalsOnTheSharedInstance) {
+  const World world(TableOneScenario());
+  EXPECT_EQ(Figures(world, FlyBaseline(world, BaselineKind::kAoi)).total_aoi, 3684);
+  EXPECT_EQ(Figures(world, FlyBaseline(world, BaselineKind::kDistance)).total_aoi, 3589);
+}
+
+}  // namespace
+}  // namespace fresco

@@ -1,0 +1,74 @@
+#include "worlds/uav/network_input.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/worlds/test_scenarios.h"
+#include "worlds/uav/environment.h"
+
+namespace fresco {
+namespace {
+
+using testing::ElementsAre;
+using testing::FloatEq;
+
+std::vector<float> InputOf(const World& world, const State& state, NetworkInputOptions options = {}) {
+  const NetworkInput network_input(world, options);
+  std::vector<float> input(static_cast<size_t>(network_input.size()), -9.0f);
+  network_input.Write(state, input);
+  return input;
+}
+
+TEST(NetworkInput, IsTheStateScaledToOne) {
+  const World world(TableOneScenario());
+  const State state{
+      .slot = 20, .cell = {19, 5}, .time_margin = 35, .energy_margin_j = 5500, .aoi = {7, 14, 70}};
+  EXPECT_THAT(InputOf(world, state), ElementsAre(1.0f, 5.0f / 19.0f, 0.1f, 0.2f, 1.0f, 0.5f, 0.25f));
+}
+
+TEST(NetworkInput, IsZeroAlongAnAxisOfOneCell) {
+  Scenario scenario;
+  scenario.columns = 1;
+  scenario.rows = 1;
+  scenario.start = scenario.stop = {0, 0};
+  scenario.sensors = {{0, 0, 1}};
+  const World world(scenario);
+  const State state{.slot = 1, .cell = {0, 0}, .time_margin = 70, .energy_margin_j = 0, .aoi = {1}};
+  EXPECT_THAT(InputOf(world, state), ElementsAre(0.0f, 0.0f, 1.0f / 70.0f, 1.0f, 0.0f));
+  EXPECT_THAT(InputOf(world, state, {.sensor_geometry = true}),
+              ElementsAre(0.0f, 0.0f, 1.0f / 70.0f, 1.0f, 0.0f, 1.0f, 0.0f));
+}
+
+TEST(NetworkInput, ShowsCoverageAndDistancesOfTheCellWithSensorGeometry) {
+  // Sensors at (200, 175), (25, 100) and (450, 475) m, R = 100 m; the grid's longer side is 500 m.
+  const World world(TableOneScenario());
+  const State state{
+      .slot = 20, .cell = {11, 8}, .time_margin = 35, .energy_margin_j = 5500, .aoi = {7, 14, 70}};
+  // The UAV is over (275, 200) m: hypot(75, 25), hypot(250, 100) and hypot(175, 275) m away.
+  EXPECT_THAT(
+      InputOf(world, state, {.sensor_geometry = true}),
+      ElementsAre(11.0f / 19.0f, 8.0f / 19.0f, 0.1f, 0.2f, 1.0f, 0.5f, 0.25f, 1.0f, 0.0f, 0.0f,
+                  FloatEq(79.0569415f / 500), FloatEq(269.258240f / 500), FloatEq(325.960120f / 500)));
+}
+
+TEST(NetworkInput, HasTheSameStateFirstWithAndWithoutSensorGeometry) {
+  for (uint32_t index = 0; index < 50; ++index) {
+    const World world(RandomScenario(index));
+    const State start = Environment(world).state();
+    const std::vector<float> plain = InputOf(world, start);
+    const std::vector<float> more = InputOf(world, start, {.sensor_geometry = true});
+    ASSERT_EQ(plain.size(), static_cast<size_t>(world.sensors()) + 4);
+    ASSERT_EQ(more.size(), 3 * static_cast<size_t>(world.sensors()) + 4);
+    EXPECT_TRUE(std::equal(plain.begin(), plain.end(), more.begin()));
+    for (int sensor = 0; sensor < world.sensors(); ++sensor) {
+      EXPECT_EQ(more[plain.size() + static_cast<size_t>(sensor)],
+                world.Covers(start.cell, sensor) ? 1.0f : 0.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fresco

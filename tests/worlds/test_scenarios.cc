@@ -1,0 +1,80 @@
+#include "tests/worlds/test_scenarios.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "core/error.h"
+
+namespace fresco {
+namespace {
+
+bool IsValid(const Scenario& scenario) {
+  try {
+    World world(scenario);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+int Between(RandomStream* stream, int low, int high) {
+  return low + static_cast<int>(stream->NextBelow(static_cast<uint32_t>(high - low + 1)));
+}
+
+Scenario TableOneScenario() {
+  Scenario scenario;
+  scenario.sensors = {{200, 175, 1}, {25, 100, 1}, {450, 475, 1}};
+  return scenario;
+}
+
+Rotor LiteratureRotor() {
+  return {79.86, 88.63, 120, 4.03, 0.6, 1.225, 0.05, 0.503};
+}
+
+Scenario RandomScenario(uint32_t index) {
+  RandomStream stream = TestStream(1, index);
+  Scenario scenario;
+  scenario.columns = Between(&stream, 1, 5);
+  scenario.rows = Between(&stream, 1, 5);
+  scenario.start = {Between(&stream, 0, scenario.columns - 1), Between(&stream, 0, scenario.rows - 1)};
+  scenario.stop = {Between(&stream, 0, scenario.columns - 1), Between(&stream, 0, scenario.rows - 1)};
+  const int distance = std::abs(scenario.start.column - scenario.stop.column) +
+                       std::abs(scenario.start.row - scenario.stop.row);
+  scenario.slots = std::max(2, distance + 1 + Between(&stream, 0, 9));
+  scenario.sensors =
+      RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, Between(&stream, 1, 4), index);
+  for (Sensor& sensor : scenario.sensors) {
+    sensor.weight = Between(&stream, 0, 3);
+  }
+  scenario.sensors[0].weight = 0.5;
+  scenario.coverage_radius_m = 60 * stream.NextUniform();
+  scenario.rotor = Between(&stream, 0, 1) == 0 ? Rotor{} : LiteratureRotor();
+  scenario.reward = {stream.NextUniform(), 2 * stream.NextUniform(), 3 * stream.NextUniform()};
+  if (Between(&stream, 0, 3) == 0) {
+    scenario.maximum_aoi = Between(&stream, 1, scenario.slots);
+  }
+  do {
+    scenario.initial_energy_j = scenario.slots * 300 * stream.NextUniform() + 1;
+  } while (!IsValid(scenario));
+  return scenario;
+}
+
+RandomStream TestStream(uint32_t test, uint32_t index) {
+  return {2026, RandomPurpose::kTest, test, index};
+}
+
+Action RandomAction(const World& world, const Environment& environment, MaskOptions options,
+                    RandomStream* stream) {
+  std::vector<uint8_t> mask(static_cast<size_t>(world.actions()));
+  environment.WriteMask(options, mask);
+  int index = 0;
+  do {
+    index = Between(stream, 0, world.actions() - 1);
+  } while (mask[static_cast<size_t>(index)] == 0);
+  return world.ActionAt(index);
+}
+
+}  // namespace fresco

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+#include "core/error.h"
+#include "core/live_line.h"
+#include "core/signals.h"
+#include "logs/event_input.h"
+#include "logs/event_source.h"
+#include "logs/log_player.h"
+#include "tools/log_commands.h"
+
+namespace fresco {
+namespace {
+
+struct PlayOptions {
+  EventInputOptions input;
+  double speed = 1;
+  bool loop = false;
+  std::string lcm_url = kDefaultLcmUrl;
+};
+
+/// One pass through the logs. Returns when it is done or the program is asked to stop.
+void PlayOnce(const PlayOptions& options, LogPlayer& player) {
+  EventSelection selection(options.input.selection);
+  const auto source = OpenEvents(options.input.sources, options.input.seconds);
+  LiveLine line(true);
+  std::optional<int64_t> first_utime;
+  while (const auto event = source->Next()) {
+    first_utime = first_utime.value_or(event->utime);
+    if (selection.Wants(*event)) {
+      player.Play(*event);
+      line.Show(fmt::format("played {} events; at {:.1f} s of the log", player.events(),
+                            1e-6 * static_cast<double>(event->utime - *first_utime)));
+    }
+  }
+  source->WarnOfLosses();
+}
+
+int Play(const PlayOptions& options) {
+  EventSelection(options.input.selection);  // before a bus is opened
+  OpenEvents(options.input.sources, options.input.seconds).reset();
+  const auto bus = OpenLcmBus(options.lcm_url);
+  LogPlayer player(*bus, options.speed);
+  do {
+    const int64_t events_before = player.events();
+    player.StartAgain();
+    PlayOnce(options, player);
+    if (player.events() == events_before) {
+      break;  // nothing to play, or asked to stop
+    }
+  } while (options.loop && !StopSignal::Requested());
+  fmt::print("played {} events on {}\n", player.events(), options.lcm_url);
+  if (player.refused() > 0) {
+    throw Failure(fmt::format("{} of {} events could not be sent over {}", player.refused(), player.events(),
+                              options.lcm_url));
+  }
+  return StopSignal::Requested() && !options.loop ? 1 : 0;
+}
+
+}  // namespace
+
+void AddLogPlay(CLI::App& log, Command& command) {
+  auto options = std::make_shared<PlayOptions>();
+  CLI::App* play = log.add_subcommand("play", "Put events back on a bus, their bytes as they are");
+  AddEventInput(*play, options->input);
+  play->add_option("--speed", options->speed,
+                   "So many times as fast as it was recorded; 0: as fast as receivers can take it")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e6));
+  play->add_flag("--loop", options->loop, "Again and again, until Ctrl-C");
+  play->add_option("--lcm-url", options->lcm_url, "Where to play")->capture_default_str();
+  play->callback([options, &command] { command = [options] { return Play(*options); }; });
+}
+
+}  // namespace fresco

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "bus/command_line.h"
+#include "core/error.h"
+#include "logs/retrain_run.h"
+#include "msgs/ready_experiments.h"
+#include "msgs/settings.h"
+#include "report/run_report.h"
+#include "report/train_display.h"
+#include "runs/new_run_folder.h"
+#include "tools/subcommands.h"
+
+namespace fresco {
+namespace {
+
+struct RetrainOptions {
+  std::vector<std::string> logs;
+  std::string run;
+  std::string config;
+  std::vector<std::string> settings;
+  std::optional<uint64_t> seed;
+  std::string out;
+  KeyFile key_file;
+  bool strict = false;
+  std::string format = "text";
+};
+
+/// What a log was recorded with, and what to train with.
+struct Experiments {
+  std::optional<Experiment> recorded;  // none: the log does not hold all of its configuration
+  Experiment chosen;
+  Retraining::Use use;
+};
+
+Settings SettingsFrom(const RetrainOptions& options) {
+  Settings settings = ParseSettings(options.settings);
+  if (options.seed) {
+    settings.emplace_back("schedule.seed", std::to_string(*options.seed));
+  }
+  return settings;
+}
+
+void RefuseOtherScenario(const Experiment& recorded, const Experiment& chosen) {
+  if (recorded.config().scenario().SerializeAsString() != chosen.config().scenario().SerializeAsString()) {
+    throw UsageError(
+        "the run was recorded in another scenario than the configuration's, so its episodes are none of this "
+        "world: keep the scenario (without --config it is the recorded one) and change agent or schedule");
+  }
+}
+
+Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& run) {
+  std::optional<Experiment> recorded;
+  if (run.config_text) {
+    recorded = Experiment::Parse(*run.config_text, "the recorded configuration");
+  } else if (options.config.empty()) {
+    throw UsageError(
+        "the log does not hold the whole configuration of its run (channel FRESCO_RUN): name it "
+        "with --config");
+  }
+  const Experiment chosen =
+      options.config.empty()
+          ? Experiment::Parse(*run.config_text, "the recorded configuration", SettingsFrom(options))
+          : Experiment::Load(ExperimentPath(options.config), SettingsFrom(options));
+  if (chosen.hash() == run.identity.config_hash) {
+    ExpectOrdersOfThisRelease(run);
+    return {recorded, chosen, Retraining::Use::kSameRun};
+  }
+  if (!recorded) {
+    throw UsageError(fmt::format(
+        "{} (hash {:08x}) is not the configuration of the recorded run ({:08x}), which the log does not hold "
+        "whole: name the one that the run had",
+        options.config, chosen.hash(), run.identity.config_hash));
+  }
+  RefuseOtherScenario(*recorded, chosen);
+  return {recorded, chosen, Retraining::Use::kExperience};
+}
+
+void WarnOfOtherArithmetic(const LoggedRun& run) {
+  if (run.arithmetic_fingerprint && *run.arithmetic_fingerprint != ArithmeticFingerprint()) {
+    spdlog::warn(
+        "another build of Fresco, or another kind of processor, recorded this run: its arithmetic gives "
+        "other bits, so the weights will not be the recorded ones");
+  }
+}
+
+int Retrain(const RetrainOptions& options) {
+  const std::filesystem::path folder =
+      options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
+  RunFolder::CheckNew(folder);  // before the logs are read, which may take minutes
+  LogSource source{{options.logs.begin(), options.logs.end()}};
+  if (options.key_file) {
+    source.key = ReadAuthenticationKey(*options.key_file);
+  }
+  const LoggedRun run = ChooseLoggedRun(FindLoggedRuns(source), options.run);
+  const Experiments experiments = ChooseExperiments(options, run);
+  WarnOfOtherArithmetic(run);
+  RetrainRun retrain_run(source, run, experiments.recorded ? *experiments.recorded : experiments.chosen,
+                         experiments.chosen, experiments.use, options.strict);
+  const bool text = options.format == "text";
+  if (text) {
+    fmt::print("{}results go to {}\n", BeginText(retrain_run.report()), folder.string());
+    std::fflush(stdout);
+  }
+  const std::string summary = retrain_run.Train(folder);
+  fmt::print("{}", text ? ResultTable(summary) + "\n" + EndText(retrain_run.report()) : summary + "\n");
+  std::fflush(stdout);
+  WriteRunReport(folder);
+  return retrain_run.completed() && retrain_run.report().counts.different_versions == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void AddRetrain(CLI::App& app, Command& command) {
+  auto options = std::make_shared<RetrainOptions>();
+  CLI::App* retrain = app.add_subcommand(
+      "retrain",
+      "Train from recorded LCM logs: the same weights again, or another agent on the same experience");
+  retrain->add_option("log", options->logs, "Event logs of one run, in any order")->required();
+  retrain->add_option("--config", options->config, ConfigHelp("the recorded one"));
+  retrain->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
+  retrain->add_option("--seed", options->seed, "Seed of everything random but the recorded flights");
+  retrain->add_option("--run", options->run,
+                      "Which run of the log (16 hexadecimal digits); default: the only one");
+  AddKeyFileOption(*retrain, options->key_file);
+  retrain->add_flag("--strict", options->strict,
+                    "An episode that the log misses is an error, not flown again");
+  retrain->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
+  retrain->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
+  retrain->callback([options, &command] { command = [options] { return Retrain(*options); }; });
+}
+
+}  // namespace fresco

@@ -1,0 +1,88 @@
+#include "training/dqn.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+
+namespace fresco {
+namespace {
+
+std::span<const float> Span(const Vector& vector) {
+  return {vector.data(), static_cast<size_t>(vector.size())};
+}
+
+/// The first action of the largest value among those without penalty.
+int BestAllowed(const Matrix& values, const Matrix& penalty, int column) {
+  int best = 0;
+  for (int action = 1; action < penalty.rows(); ++action) {
+    if (values(action, column) + penalty(action, column) > values(best, column) + penalty(best, column)) {
+      best = action;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options)
+    : mlp_(shape),
+      options_(options),
+      current_(initial),
+      target_(initial),
+      adam_(shape.parameter_count(), options.adam),
+      workspace_(shape, options.batch_size),
+      next_workspace_(shape, options.batch_size),
+      targets_(options.batch_size),
+      output_gradient_(shape.outputs(), options.batch_size),
+      gradient_(shape.parameter_count()),
+      choices_(static_cast<size_t>(options.batch_size)) {}
+
+void Dqn::Restore(const Vector& current, const Vector& target, const Adam::State& adam) {
+  FRESCO_CHECK(current.size() == current_.size() && target.size() == target_.size());
+  current_ = current;
+  target_ = target;
+  adam_.Restore(adam);
+}
+
+double Dqn::Update(const MiniBatch& batch, double learning_rate) {
+  FRESCO_CHECK(batch.size() == options_.batch_size);
+  const int size = batch.size();
+  ComputeTargets(batch);
+  workspace_.input().leftCols(size) = batch.observations;
+  mlp_.Forward(Span(current_), size, workspace_);
+  output_gradient_.setZero();
+  double loss = 0;
+  for (int column = 0; column < size; ++column) {
+    const int action = batch.actions[static_cast<size_t>(column)];
+    const float error = workspace_.output()(action, column) - targets_(column);
+    output_gradient_(action, column) = 2.0f * error / static_cast<float>(size);
+    loss += static_cast<double>(error) * static_cast<double>(error);
+  }
+  mlp_.Backward(Span(current_), size, output_gradient_, workspace_,
+                {gradient_.data(), static_cast<size_t>(gradient_.size())});
+  adam_.Step(Span(gradient_), learning_rate, {current_.data(), static_cast<size_t>(current_.size())});
+  return loss / size;
+}
+
+void Dqn::ComputeTargets(const MiniBatch& batch) {
+  const int size = batch.size();
+  next_workspace_.input().leftCols(size) = batch.next_observations;
+  if (options_.double_dqn) {
+    mlp_.Forward(Span(current_), size, next_workspace_);
+    for (int column = 0; column < size; ++column) {
+      choices_[static_cast<size_t>(column)] =
+          BestAllowed(next_workspace_.output(), batch.next_penalty, column);
+    }
+  }
+  mlp_.Forward(Span(target_), size, next_workspace_);
+  for (int column = 0; column < size; ++column) {
+    const auto i = static_cast<size_t>(column);
+    const int choice =
+        options_.double_dqn ? choices_[i] : BestAllowed(next_workspace_.output(), batch.next_penalty, column);
+    const float next_value = next_workspace_.output()(choice, column);
+    const float later = batch.terminal[i] != 0 ? 0.0f : options_.discount * next_value;
+    targets_(column) = std::max(batch.rewards[i] + later, batch.least_values[i]);
+  }
+}
+
+}  // namespace fresco

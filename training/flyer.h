@@ -1,0 +1,81 @@
+// Flies orders: many environments side by side, epsilon-greedy, environments whose orders name the
+// same two versions sharing one forward pass. The episode of an order is a pure function of the
+// order and its networks; neither the company it flies in nor its place in the batch changes a bit.
+// Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/random.h"
+#include "msgs/episode.h"
+#include "msgs/experiment.h"
+#include "msgs/order.h"
+#include "nn/mlp.h"
+#include "worlds/uav/environment.h"
+#include "worlds/uav/network_input.h"
+
+namespace fresco {
+
+/// Parameters of one network version, shared by whoever flies with it.
+using SharedParameters = std::shared_ptr<const Vector>;
+
+class Flyer {
+ public:
+  /// Up to `capacity` environments at a time. `world` must outlive the flyer.
+  Flyer(const World& world, const Experiment& experiment, int capacity);
+
+  bool HasRoom() const { return flights_.size() < static_cast<size_t>(capacity_); }
+  bool Idle() const { return flights_.empty(); }
+  int open_flights() const { return static_cast<int>(flights_.size()); }
+  bool IsFlying(int64_t order_index) const;
+  std::vector<int64_t> OrderIndices() const;
+
+  /// Takes an order with the parameters of its two versions. CHECKs that there is room.
+  void Start(const Order& order, SharedParameters current, SharedParameters target);
+
+  /// Flies one slot of every open order, and hands each episode that ends to `finished`.
+  void Step(const std::function<void(const Order&, const Episode&)>& finished);
+
+ private:
+  struct Flight {
+    Flight(const World& world, const Order& flown_order, SharedParameters current_parameters,
+           SharedParameters target_parameters);
+    Order order;
+    SharedParameters current;
+    SharedParameters target;
+    Environment environment;
+    std::vector<uint8_t> mask;  // of the present state
+    Episode episode;
+    float chosen_value = 0;        // Q(s, a) of the last transition
+    std::optional<Cell> waypoint;  // where an excursion leads
+  };
+
+  void StepGroup(std::vector<Flight*>& group);
+  void FinishLastTransition(Flight& flight, int column);
+  int ChooseAction(Flight& flight, int column) const;
+  std::optional<int> Explore(Flight& flight, int column) const;
+  void Act(Flight& flight, int action, float value);
+  Cell RandomCell(RandomStream& stream) const;
+
+  const World* world_;
+  NetworkInput network_input_;
+  Mlp mlp_;
+  MaskOptions mask_options_;
+  bool double_dqn_;
+  float discount_;
+  double excursion_share_;
+  int capacity_;
+  MlpWorkspace current_workspace_;
+  MlpWorkspace target_workspace_;
+  std::vector<std::unique_ptr<Flight>> flights_;
+  std::vector<Flight*> group_;
+};
+
+/// One greedy episode with a network: what `fresco evaluate` flies. Masks as the experiment says.
+Episode FlyGreedily(const World& world, const Experiment& experiment, SharedParameters parameters);
+
+}  // namespace fresco

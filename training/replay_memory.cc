@@ -1,0 +1,70 @@
+#include "training/replay_memory.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/check.h"
+
+namespace fresco {
+
+MiniBatch::MiniBatch(int inputs, int action_count, int batch_size)
+    : observations(inputs, batch_size),
+      next_observations(inputs, batch_size),
+      actions(static_cast<size_t>(batch_size)),
+      rewards(static_cast<size_t>(batch_size)),
+      terminal(static_cast<size_t>(batch_size)),
+      least_values(static_cast<size_t>(batch_size), -std::numeric_limits<float>::infinity()),
+      next_penalty(action_count, batch_size) {}
+
+ReplayMemory::ReplayMemory(int inputs, int actions, int64_t capacity)
+    : actions_(actions),
+      capacity_(capacity),
+      observations_(inputs, capacity),
+      next_observations_(inputs, capacity),
+      action_(static_cast<size_t>(capacity)),
+      reward_(static_cast<size_t>(capacity)),
+      terminal_(static_cast<size_t>(capacity)),
+      least_value_(static_cast<size_t>(capacity)),
+      mask_size_((static_cast<size_t>(actions) + 7) / 8),
+      masks_(mask_size_ * static_cast<size_t>(capacity)) {}
+
+void ReplayMemory::Insert(const Transition& transition) {
+  FRESCO_CHECK(static_cast<int64_t>(transition.observation.size()) == observations_.rows());
+  FRESCO_CHECK(transition.next_mask.size() == mask_size_);
+  const auto place = static_cast<size_t>(next_);
+  std::copy(transition.observation.begin(), transition.observation.end(), observations_.col(next_).data());
+  std::copy(transition.next_observation.begin(), transition.next_observation.end(),
+            next_observations_.col(next_).data());
+  action_[place] = transition.action;
+  reward_[place] = transition.reward;
+  terminal_[place] = transition.terminal ? 1 : 0;
+  least_value_[place] = transition.least_value;
+  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + place * mask_size_);
+  next_ = (next_ + 1) % capacity_;
+  size_ = std::min(size_ + 1, capacity_);
+}
+
+void ReplayMemory::Sample(RandomStream& stream, MiniBatch& batch) const {
+  FRESCO_CHECK(size_ >= 1);
+  for (int column = 0; column < batch.size(); ++column) {
+    Copy(stream.NextBelow(static_cast<uint32_t>(size_)), column, batch);
+  }
+}
+
+void ReplayMemory::Copy(int64_t place, int column, MiniBatch& batch) const {
+  const auto from = static_cast<size_t>(place);
+  const auto to = static_cast<size_t>(column);
+  batch.observations.col(column) = observations_.col(place);
+  batch.next_observations.col(column) = next_observations_.col(place);
+  batch.actions[to] = action_[from];
+  batch.rewards[to] = reward_[from];
+  batch.terminal[to] = terminal_[from];
+  batch.least_values[to] = least_value_[from];
+  const uint8_t* mask = masks_.data() + from * mask_size_;
+  for (int action = 0; action < actions_; ++action) {
+    const bool allowed = (mask[action / 8] >> (action % 8) & 1) != 0;
+    batch.next_penalty(action, column) = allowed ? 0.0f : -std::numeric_limits<float>::infinity();
+  }
+}
+
+}  // namespace fresco

@@ -1,0 +1,58 @@
+#include "training/schedules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+
+namespace fresco {
+namespace {
+
+/// base^exponent by squaring: the same bits with every mathematical library.
+double IntegerPower(double base, int64_t exponent) {
+  double power = 1;
+  for (; exponent > 0; exponent /= 2, base *= base) {
+    if (exponent % 2 == 1) {
+      power *= base;
+    }
+  }
+  return power;
+}
+
+}  // namespace
+
+uint64_t EpisodeSeed(uint64_t seed, int64_t episode) {
+  const auto number = static_cast<uint64_t>(episode);
+  RandomStream stream(seed, RandomPurpose::kEpisodeSeed, static_cast<uint32_t>(number),
+                      static_cast<uint32_t>(number >> 32));
+  const uint64_t high = stream.NextWord();
+  return high << 32 | stream.NextWord();
+}
+
+double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t transitions) {
+  if (schedule.has_ladder()) {
+    const proto::LadderEpsilon& ladder = schedule.ladder();
+    const auto rung = static_cast<double>(episode % ladder.rungs());
+    return std::pow(ladder.base(), 1 + ladder.exponent() * rung / (ladder.rungs() - 1));
+  }
+  const proto::LinearEpsilon& linear = schedule.linear();
+  return std::max(linear.minimum(), linear.initial() - linear.decrement() * static_cast<double>(transitions));
+}
+
+double LearningRateOf(const proto::Agent& agent, int64_t updates, int64_t episodes,
+                      int64_t expected_updates) {
+  if (agent.has_linear()) {
+    const double progress =
+        std::min(1.0, static_cast<double>(updates) / static_cast<double>(expected_updates));
+    return agent.linear().initial() + (agent.linear().final() - agent.linear().initial()) * progress;
+  }
+  const proto::ExponentialDecay& decay = agent.exponential();
+  const int64_t steps = decay.unit() == proto::ExponentialDecay::EPISODES ? episodes : updates;
+  return decay.initial() * IntegerPower(decay.decay_rate(), steps / decay.decay_steps());
+}
+
+int64_t ExpectedUpdates(const proto::Schedule& schedule, int transitions_per_episode) {
+  return std::max<int64_t>(1, schedule.episodes() * transitions_per_episode / schedule.inserts_per_update());
+}
+
+}  // namespace fresco

@@ -1,0 +1,221 @@
+#include "training/trainer.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/check.h"
+#include "training/schedules.h"
+
+namespace fresco {
+namespace {
+
+DqnOptions OptionsOf(const proto::Agent& agent) {
+  return {agent.double_dqn(),
+          static_cast<float>(agent.discount()),
+          agent.batch_size(),
+          {agent.adam().beta1(), agent.adam().beta2(), agent.adam().epsilon()}};
+}
+
+void Average(double value, double& average) {
+  constexpr double kShare = 0.01;
+  average += kShare * (value - average);
+}
+
+}  // namespace
+
+Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput output)
+    : experiment_(experiment),
+      world_(&world),
+      output_(std::move(output)),
+      expected_updates_(ExpectedUpdates(experiment.schedule(), world.maximum_transitions())),
+      network_input_(world, experiment.network_input_options()),
+      replay_(network_input_.size(), world.actions(), experiment.agent().replay_capacity()),
+      history_(experiment.agent().replay_capacity(), world.maximum_transitions()),
+      batch_(network_input_.size(), world.actions(), experiment.agent().batch_size()),
+      dqn_(experiment.network_shape(),
+           InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
+           OptionsOf(experiment.agent())),
+      observation_(static_cast<size_t>(network_input_.size())),
+      next_observation_(static_cast<size_t>(network_input_.size())),
+      least_values_(static_cast<size_t>(world.maximum_transitions())) {}
+
+void Trainer::Begin() {
+  Offer(NetworkKind::kCurrent, 0, dqn_.current());
+  Offer(NetworkKind::kTarget, 0, dqn_.target());
+  for (int i = 0; i < experiment_.schedule().window(); ++i) {
+    WriteTrainingOrder();
+  }
+}
+
+void Trainer::Commit(const Order& order, const Episode& episode) {
+  FRESCO_CHECK(!orders_.empty() && order == orders_.front().order && episode.order_index == order.index);
+  const int64_t updates_at_writing = orders_.front().updates_at_writing;
+  orders_.pop_front();
+  ++progress_.committed_orders;
+  if (order.kind == OrderKind::kEvaluate) {
+    CommitEvaluation(order, episode);
+  } else {
+    Average(static_cast<double>(progress_.updates - updates_at_writing), progress_.staleness_updates);
+    CommitTraining(episode);
+  }
+  ForgetVersions();
+}
+
+/// What the episode earned from each transition on: the world is deterministic, so that much is within
+/// reach (a lower bound of Q*, as in He et al., "Learning to play in a day", 2017).
+void Trainer::TakeLeastValues(const Episode& episode) {
+  if (!experiment_.agent().flown_return_bound()) {
+    std::fill(least_values_.begin(), least_values_.end(), -std::numeric_limits<float>::infinity());
+    return;
+  }
+  double earned = 0;
+  for (int transition = episode.transitions() - 1; transition >= 0; --transition) {
+    const auto i = static_cast<size_t>(transition);
+    earned = static_cast<double>(episode.rewards[i]) + experiment_.agent().discount() * earned;
+    least_values_[i] = static_cast<float>(earned);
+  }
+}
+
+/// Evaluations stand beside the training orders: each training episode makes room for one training order,
+/// whatever is evaluated.
+void Trainer::CommitTraining(const Episode& episode) {
+  const int64_t evaluations_due = EvaluationsDue();
+  TakeLeastValues(episode);
+  for (int transition = 0; transition < episode.transitions(); ++transition) {
+    Insert(episode, transition);
+    history_.Add(episode.actions[static_cast<size_t>(transition)], transition + 1 == episode.transitions());
+    ++progress_.transitions;
+    progress_.replay_size = replay_.size();
+    if (progress_.transitions >= experiment_.schedule().minimum_replay_size() &&
+        progress_.transitions % experiment_.schedule().inserts_per_update() == 0) {
+      UpdateOnce();
+    }
+  }
+  ++progress_.episodes;
+  if (AllEpisodesCommitted()) {
+    WriteFinalEvaluation();
+  } else {
+    if (EvaluationsDue() > evaluations_due) {
+      WriteEvaluation();
+    }
+    WriteTrainingOrder();
+  }
+}
+
+/// Evaluations that the versions of the current network ask for by now.
+int64_t Trainer::EvaluationsDue() const {
+  return progress_.current_version / experiment_.schedule().versions_per_evaluation();
+}
+
+void Trainer::Insert(const Episode& episode, int transition) {
+  const auto i = static_cast<size_t>(transition);
+  network_input_.Write(episode.states[i], observation_);
+  network_input_.Write(episode.states[i + 1], next_observation_);
+  const auto mask_size = static_cast<size_t>(MaskSize(*world_));
+  const bool last = transition + 1 == episode.transitions();
+  replay_.Insert({observation_, next_observation_, episode.actions[i], episode.rewards[i], last,
+                  std::span(episode.next_masks).subspan(i * mask_size, mask_size), least_values_[i]});
+}
+
+void Trainer::UpdateOnce() {
+  const auto update = static_cast<uint64_t>(progress_.updates);
+  RandomStream stream(experiment_.schedule().seed(), RandomPurpose::kReplaySampling,
+                      static_cast<uint32_t>(update), static_cast<uint32_t>(update >> 32));
+  replay_.Sample(stream, batch_);
+  progress_.learning_rate =
+      LearningRateOf(experiment_.agent(), progress_.updates, progress_.episodes, expected_updates_);
+  Average(dqn_.Update(batch_, progress_.learning_rate), progress_.loss);
+  ++progress_.updates;
+  if (progress_.updates % experiment_.agent().target_update_period() == 0) {
+    CopyToTarget();
+  }
+  if (progress_.updates % experiment_.schedule().updates_per_version() == 0) {
+    MakeVersion();
+  }
+  if (output_.updated) {
+    output_.updated();
+  }
+}
+
+void Trainer::CopyToTarget() {
+  dqn_.CopyToTarget();
+  Offer(NetworkKind::kTarget, ++progress_.target_version, dqn_.target());
+}
+
+void Trainer::MakeVersion() {
+  Offer(NetworkKind::kCurrent, ++progress_.current_version, dqn_.current());
+}
+
+void Trainer::Offer(NetworkKind kind, int32_t version, const Vector& parameters) {
+  const auto copy = std::make_shared<const Vector>(parameters);
+  versions_[{kind, version}] = {kind, version, progress_.updates, copy};
+  output_.version(kind, version, copy);
+}
+
+/// Orders name the newest versions of their time, so a version older than those of the oldest order
+/// is not named any more.
+void Trainer::ForgetVersions() {
+  const bool none = orders_.empty();
+  const int32_t current = none ? progress_.current_version : orders_.front().order.current_version;
+  const int32_t target = none ? progress_.target_version : orders_.front().order.target_version;
+  std::erase_if(versions_, [&](const auto& entry) {
+    const auto& [kind, version] = entry.first;
+    return version < (kind == NetworkKind::kCurrent ? current : target);
+  });
+}
+
+void Trainer::WriteFinalEvaluation() {
+  if (versions_.at({NetworkKind::kCurrent, progress_.current_version}).updates != progress_.updates) {
+    MakeVersion();  // the final version, however few updates it has
+  }
+  WriteEvaluation();
+}
+
+void Trainer::WriteTrainingOrder() {
+  const proto::Schedule& schedule = experiment_.schedule();
+  if (training_orders_ < schedule.episodes()) {
+    Order order;
+    order.kind = OrderKind::kTrain;
+    order.epsilon = EpsilonOf(schedule, training_orders_, progress_.transitions);
+    order.seed = EpisodeSeed(schedule.seed(), training_orders_);
+    progress_.epsilon = order.epsilon;
+    ++training_orders_;
+    WriteOrder(order);
+  }
+}
+
+void Trainer::WriteEvaluation() {
+  Order order;
+  order.kind = OrderKind::kEvaluate;
+  WriteOrder(order);
+}
+
+/// Completes the order with its index and the newest versions, and hands it out.
+void Trainer::WriteOrder(Order order) {
+  order.index = progress_.committed_orders + static_cast<int64_t>(orders_.size());
+  order.current_version = progress_.current_version;
+  order.target_version = progress_.target_version;
+  orders_.push_back({order, progress_.updates});
+  output_.order(order);
+}
+
+void Trainer::CommitEvaluation(const Order& order, const Episode& episode) {
+  const VersionState& version = versions_.at({NetworkKind::kCurrent, order.current_version});
+  AoiAccumulator accumulator(*world_);
+  for (const State& state : episode.states) {
+    accumulator.Add(state.aoi);
+  }
+  const Evaluation evaluation{order.current_version, version.updates, progress_.episodes,
+                              episode.outcome == Outcome::kArrived, accumulator.Finish()};
+  const auto better = [](const Evaluation& a, const Evaluation& b) {
+    return a.arrived != b.arrived ? a.arrived : a.arrived && a.figures.average_aoi < b.figures.average_aoi;
+  };
+  if (!best_ || better(evaluation, best_->evaluation) || !best_->evaluation.arrived) {
+    best_ = {evaluation, version.parameters};
+  }
+  last_evaluation_ = evaluation;
+  output_.evaluation(evaluation);
+}
+
+}  // namespace fresco

@@ -1,0 +1,123 @@
+#include "worlds/uav/environment.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/check.h"
+
+namespace fresco {
+
+const char* OutcomeName(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kFlying:
+      return "flying";
+    case Outcome::kArrived:
+      return "arrived";
+    case Outcome::kOutOfTime:
+      return "out of time";
+    case Outcome::kOutOfEnergy:
+      return "out of energy";
+  }
+  CheckFailed(__FILE_NAME__, __LINE__, "an outcome of 0 to 3");
+}
+
+Environment::Environment(const World& world) : world_(&world) {
+  Reset();
+}
+
+void Environment::Reset() {
+  state_.slot = 1;
+  state_.cell = world_->scenario().start;
+  state_.aoi.assign(static_cast<size_t>(world_->sensors()), 1);
+  remaining_j_ = world_->scenario().initial_energy_j;
+  outcome_ = Outcome::kFlying;
+  UpdateMargins();
+}
+
+StepResult Environment::Step(Action action) {
+  FRESCO_CHECK(outcome_ == Outcome::kFlying);
+  FRESCO_CHECK(action.schedule >= 0 && action.schedule <= world_->sensors());
+  Collect(action.schedule);  // from o_t, before the move
+  const Cell next = world_->After(state_.cell, action.move);
+  remaining_j_ -= SlotEnergy(next);
+  state_.cell = next;
+  ++state_.slot;
+  UpdateMargins();
+  outcome_ = PresentOutcome();
+  return {RewardOfState(), outcome_};
+}
+
+// Eq. (Dynamic-AoI), with the cap delta_max where there is one.
+void Environment::Collect(int schedule) {
+  const int cap = world_->scenario().maximum_aoi.value_or(world_->scenario().slots);
+  for (int sensor = 0; sensor < world_->sensors(); ++sensor) {
+    const bool collected = schedule == sensor + 1 && world_->Covers(state_.cell, sensor);
+    int16_t& aoi = state_.aoi[static_cast<size_t>(sensor)];
+    aoi = collected ? int16_t{1} : static_cast<int16_t>(std::min(aoi + 1, cap));
+  }
+}
+
+// A move off the grid leaves the UAV where it is, and is a hover in energy too.
+double Environment::SlotEnergy(Cell next) const {
+  return next == state_.cell ? world_->hovering_energy_j() : world_->flying_energy_j();
+}
+
+void Environment::UpdateMargins() {
+  const int slots_left = world_->scenario().slots - state_.slot;
+  state_.time_margin = slots_left - world_->DistanceToStop(state_.cell);
+  state_.energy_margin_j = static_cast<float>(EnergyMargin(*world_, state_.cell, slots_left, remaining_j_));
+}
+
+// With no slot left, phi >= 0 says that the UAV is over the stop. (Rounding Delta to float keeps
+// its sign: it is zero or far above the smallest float.)
+Outcome Environment::PresentOutcome() const {
+  if (state_.time_margin < 0) {
+    return Outcome::kOutOfTime;
+  }
+  if (state_.energy_margin_j < 0) {
+    return Outcome::kOutOfEnergy;
+  }
+  return state_.slot == world_->scenario().slots ? Outcome::kArrived : Outcome::kFlying;
+}
+
+double Environment::RewardOfState() const {
+  double weighted_aoi = 0;
+  for (size_t sensor = 0; sensor < state_.aoi.size(); ++sensor) {
+    weighted_aoi += world_->theta()[sensor] * state_.aoi[sensor];
+  }
+  const Reward& constants = world_->scenario().reward;
+  double reward = -weighted_aoi / world_->scenario().slots;
+  reward -= state_.time_margin < 0 ? constants.k1 : 0;
+  reward -= state_.energy_margin_j < 0 ? constants.k2 : 0;
+  reward += outcome_ == Outcome::kArrived ? constants.k3 : 0;
+  return reward;
+}
+
+bool Environment::IsSafe(Move move) const {
+  const int slots_left = world_->scenario().slots - state_.slot - 1;
+  const Cell next = world_->After(state_.cell, move);
+  const bool off_grid = move != Move::kHover && next == state_.cell;
+  return slots_left >= 0 && !off_grid &&
+         CanReachStop(*world_, next, slots_left, remaining_j_ - SlotEnergy(next));
+}
+
+void Environment::WriteMask(MaskOptions options, std::span<uint8_t> mask) const {
+  FRESCO_CHECK(mask.size() == static_cast<size_t>(world_->actions()));
+  std::array<uint8_t, kMoves> allowed{};
+  for (int move = 0; move < kMoves; ++move) {
+    allowed[static_cast<size_t>(move)] = !options.safe_actions || IsSafe(static_cast<Move>(move));
+  }
+  if (std::count(allowed.begin(), allowed.end(), 1) == 0) {
+    allowed.fill(1);  // the stop is lost already, or the episode is over: nothing to protect
+  }
+  const bool covered_only = options.coverage && outcome_ == Outcome::kFlying;
+  size_t index = 0;
+  for (const uint8_t move_allowed : allowed) {
+    mask[index++] = move_allowed;  // schedule 0
+    for (int sensor = 0; sensor < world_->sensors(); ++sensor) {
+      mask[index++] = move_allowed && (!covered_only || world_->Covers(state_.cell, sensor));
+    }
+  }
+}
+
+}  // namespace fresco

@@ -1,0 +1,150 @@
+#include "worlds/uav/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "worlds/uav/rotor.h"
+#include "worlds/uav/scenario_check.h"
+
+namespace fresco {
+namespace {
+
+Scenario Checked(Scenario scenario) {
+  CheckScenario(scenario);
+  return scenario;
+}
+
+double RoundTo(double value, double quantum) {
+  return std::nearbyint(value / quantum) * quantum;
+}
+
+// Whether the horizontal distance is within R, with a billionth of leeway: a radius that has gone
+// through a transmission power and back covers the same cells.
+bool Within(double x_m, double y_m, const Sensor& sensor, double radius_m) {
+  constexpr double kLeeway = 1 + 1e-9;
+  return std::hypot(x_m - sensor.x_m, y_m - sensor.y_m) <= radius_m * kLeeway;
+}
+
+}  // namespace
+
+const char* MoveName(Move move) {
+  switch (move) {
+    case Move::kNorth:
+      return "north";
+    case Move::kSouth:
+      return "south";
+    case Move::kEast:
+      return "east";
+    case Move::kWest:
+      return "west";
+    case Move::kHover:
+      return "hover";
+  }
+  CheckFailed(__FILE_NAME__, __LINE__, "a move of 0 to 4");
+}
+
+World::World(Scenario scenario) : scenario_(Checked(std::move(scenario))) {
+  DeriveEnergies();
+  DeriveTheta();
+  DeriveCoverage();
+  const int moves = maximum_transitions();
+  if (!CanReachStop(*this, scenario_.start, moves, scenario_.initial_energy_j)) {
+    const double needed_j = CompletionEnergy(*this, scenario_.start, moves);
+    throw UsageError(fmt::format(
+        "scenario.initial_energy_j: {} is out of range: the cheapest flight from scenario.start to "
+        "scenario.stop in {} slots takes {:.6g} J, {:.6g} J more; allowed: at least that",
+        scenario_.initial_energy_j, scenario_.slots, needed_j, needed_j - scenario_.initial_energy_j));
+  }
+}
+
+// Rounds the energies to multiples of one power of two, so large that sums over a whole flight are
+// exact in double, and so small (about 1e-15 of the total) that it is nothing but a rounding.
+void World::DeriveEnergies() {
+  const double flying_j = PropulsionPower(scenario_.rotor, scenario_.speed_mps) * scenario_.slot_s;
+  const double hovering_j = PropulsionPower(scenario_.rotor, 0) * scenario_.slot_s;
+  RequireWithin("scenario.rotor: the energy in joules of a slot's flight", flying_j, 0, kMaximumEnergyJ);
+  RequireWithin("scenario.rotor: the energy in joules of a slot's hover", hovering_j, 0, kMaximumEnergyJ);
+  const double largest_j =
+      std::max(scenario_.initial_energy_j, scenario_.slots * std::max(flying_j, hovering_j));
+  constexpr int kSignificandBits = 53;
+  const double quantum = std::ldexp(1.0, std::ilogb(largest_j) + 2 - kSignificandBits);
+  flying_energy_j_ = RoundTo(flying_j, quantum);
+  hovering_energy_j_ = RoundTo(hovering_j, quantum);
+  scenario_.initial_energy_j = RoundTo(scenario_.initial_energy_j, quantum);
+}
+
+void World::DeriveTheta() {
+  double total_weight = 0;
+  for (const Sensor& sensor : scenario_.sensors) {
+    total_weight += sensor.weight;
+  }
+  for (const Sensor& sensor : scenario_.sensors) {
+    theta_.push_back(sensor.weight / total_weight);
+  }
+}
+
+void World::DeriveCoverage() {
+  coverage_.reserve(static_cast<size_t>(scenario_.columns) * scenario_.rows * scenario_.sensors.size());
+  for (int row = 0; row < scenario_.rows; ++row) {
+    for (int column = 0; column < scenario_.columns; ++column) {
+      for (const Sensor& sensor : scenario_.sensors) {
+        coverage_.push_back(
+            Within(column * scenario_.cell_m, row * scenario_.cell_m, sensor, scenario_.coverage_radius_m));
+      }
+    }
+  }
+}
+
+bool World::OnGrid(Cell cell) const {
+  return cell.column >= 0 && cell.column < scenario_.columns && cell.row >= 0 && cell.row < scenario_.rows;
+}
+
+Cell World::After(Cell cell, Move move) const {
+  Cell next = cell;
+  switch (move) {
+    case Move::kNorth:
+      ++next.row;
+      break;
+    case Move::kSouth:
+      --next.row;
+      break;
+    case Move::kEast:
+      ++next.column;
+      break;
+    case Move::kWest:
+      --next.column;
+      break;
+    case Move::kHover:
+      break;
+  }
+  return OnGrid(next) ? next : cell;
+}
+
+int World::DistanceToStop(Cell cell) const {
+  return std::abs(cell.column - scenario_.stop.column) + std::abs(cell.row - scenario_.stop.row);
+}
+
+Action World::ActionAt(int index) const {
+  FRESCO_CHECK(index >= 0 && index < actions());
+  return {static_cast<Move>(index / (sensors() + 1)), index % (sensors() + 1)};
+}
+
+Move MoveTowards(Cell from, Cell to) {
+  const int columns = to.column - from.column;
+  const int rows = to.row - from.row;
+  if (columns == 0 && rows == 0) {
+    return Move::kHover;
+  }
+  if (std::abs(columns) >= std::abs(rows)) {
+    return columns > 0 ? Move::kEast : Move::kWest;
+  }
+  return rows > 0 ? Move::kNorth : Move::kSouth;
+}
+
+}  // namespace fresco
