@@ -9,7 +9,7 @@
 namespace fresco {
 namespace {
 
-constexpr int64_t kAnswerAgainUs = 6'000;  // what was sent just now may still be on its way
+constexpr int64_t kAnswerAgainUs = 6'000;  // a chunk that was just sent may still be on its way
 
 }  // namespace
 

@@ -15,9 +15,9 @@ struct Order {
   int64_t index = 0;                   ///< position in the run's sequence of orders, 0 .. 2^32 - 1
   OrderKind kind = OrderKind::kTrain;  ///< train or evaluate
   double epsilon = 0;                  ///< probability of a random action, 0 .. 1; 0 for an evaluation
-  uint64_t seed = 0;            ///< seed of the episode's random draws; an evaluation draws nothing
-  int32_t current_version = 0;  ///< version of the network that chooses the actions, >= 0
-  int32_t target_version = 0;   ///< version of the network used in the temporal-difference errors, >= 0
+  uint64_t seed = 0;                   ///< seed of the episode's random draws; an evaluation draws nothing
+  int32_t current_version = 0;         ///< version of the network that chooses the actions, >= 0
+  int32_t target_version = 0;  ///< version of the network used in the temporal-difference errors, >= 0
   bool operator==(const Order&) const = default;
 };
 
