@@ -19,11 +19,9 @@ namespace fresco {
 
 /// What to do if a multicast group can't be joined, for an error's text.
 inline constexpr char kMulticastRemedy[] =
-    "most likely there is no route for multicast, or another program has taken the port; to add a route, run "
-    "as "
-    "root: ip route add 224.0.0.0/4 dev lo (without root: run unshare -Urn, and in its shell ip link set lo "
-    "up "
-    "and then the same command)";
+    "most likely there is no route for multicast, or another program has taken the port; to add a "
+    "route, run as root: ip route add 224.0.0.0/4 dev lo (without root: run unshare -Urn, and in its "
+    "shell ip link set lo up and then the same command)";
 
 /// `datagram` is valid during the call only.
 struct ReceivedDatagram {
