@@ -44,12 +44,15 @@ struct Plan {
   /// are multiples of a common fraction, it is the average AoI of `flight`.
   double lower_bound_average_aoi = 0;
 
-  /// The lower bound on the scale of total_aoi: - if `optimal`, the total_aoi of `flight`; - otherwise, with
-  /// equal weights, a whole number: no flight has a smaller total_aoi; - otherwise N T times
-  /// lower_bound_average_aoi. This proves nothing about total_aoi, which is not what the planner minimises if
-  /// the weights differ. For the same reason another flight may then have a smaller total_aoi than an optimal
-  /// one. The planner ignores sensors of weight zero, but total_aoi counts them. Here they count with the
-  /// least AoI possible, 1 in every slot; if `optimal`, with their AoI in `flight`.
+  /// The lower bound on the scale of total_aoi:
+  ///  - if `optimal`, the total_aoi of `flight`;
+  ///  - otherwise, with equal weights, a whole number: no flight has a smaller total_aoi;
+  ///  - otherwise N T times lower_bound_average_aoi. This proves nothing about total_aoi, since the planner
+  ///    does not minimise it if the weights differ; another flight may then have a smaller total_aoi than an
+  ///    optimal one.
+  ///
+  /// The planner ignores sensors of weight zero, but total_aoi counts them. They count here with the least
+  /// AoI possible, 1 in every slot; if `optimal`, with their AoI in `flight`.
   double lower_bound_total_aoi = 0;
 
   int64_t labels = 0;  ///< labels kept, over all passes of the search
