@@ -112,7 +112,7 @@ void LearnerProcess::BeginTraining() {
   if (trainer_.best()) {
     folder_.WriteBest(*trainer_.best());
   }
-  spdlog::info("going on after {} episodes and {} updates", trainer_.progress().episodes,
+  spdlog::info("continuing after {} episodes and {} updates", trainer_.progress().episodes,
                trainer_.progress().updates);
   options_.checkpoint.reset();  // frees its memory
 }
