@@ -10,6 +10,7 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "report/train_display.h"
+#include "runs/flown_policy.h"
 #include "runs/network_file.h"
 #include "runs/policy.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "runs/flown_policy.h"
 #include "runs/optimum_search.h"
 #include "worlds/uav/flight.h"
 
@@ -85,10 +86,6 @@ std::vector<TableRow> PolicyRows(const std::string& summary_json) {
                     proved ? "0.00 %" : kNotProved, "yes"});
   }
   return rows;
-}
-
-std::string FoundFlightName(bool proved) {
-  return proved ? "exact optimum" : "best flight of the search";
 }
 
 std::string OptimumNote(const std::string& summary_json) {

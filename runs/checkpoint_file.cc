@@ -64,6 +64,16 @@ std::string SerializeCheckpoint(const Checkpoint& checkpoint) {
   return file.SerializeAsString();
 }
 
+int64_t CheckpointBytes(int64_t parameters, int64_t versions, int64_t actions) {
+  constexpr int64_t kCopies = 3;       // Protobuf's message, its content, the file
+  constexpr int64_t kCopied = 4;       // current and target network, Adam's moments; others are shared
+  constexpr int64_t kBest = 1;         // the best evaluated network
+  constexpr int64_t kVarintBytes = 2;  // of an action in content and file: below 2^14
+  const int64_t network = parameters * static_cast<int64_t>(sizeof(Vector::Scalar));
+  const int64_t of_action = sizeof(int16_t) + sizeof(int32_t) + (kCopies - 1) * kVarintBytes;
+  return kCopied * network + kCopies * (kCopied + kBest + versions) * network + of_action * actions;
+}
+
 bool LooksLikeCheckpoint(std::string_view content) {
   // The format is the file's first field: a tag and a length before it.
   constexpr size_t kBefore = 2;

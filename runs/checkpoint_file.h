@@ -24,6 +24,11 @@ struct Checkpoint {
   std::map<std::string, int64_t> counters = {};  ///< of the bus, by name
 };
 
+/// What a checkpoint takes of memory while it is written, at most: the state that was copied, the same as
+/// Protobuf's message, its content, and the file. `parameters` of a network, `versions` of networks in
+/// flight, `actions` of the replay memory.
+int64_t CheckpointBytes(int64_t parameters, int64_t versions, int64_t actions);
+
 /// The bytes of a file, with a CRC-32C. Throws Failure where they exceed 2 GB, Protobuf's limit.
 std::string SerializeCheckpoint(const Checkpoint& checkpoint);
 

@@ -68,11 +68,19 @@ FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen) {
   return flown;
 }
 
-std::string FlightSummary(const World& world, const Flight& flight, const std::string& policy) {
-  const AoiFigures figures = Figures(world, flight);
-  return fmt::format("{}: {}; average AoI {:.3f} slots, total AoI {}, {:.0f} J left", policy,
-                     OutcomeName(flight.outcome), figures.average_aoi, figures.total_aoi,
-                     flight.residual_energy_j);
+std::string FoundFlightName(bool proved) {
+  return proved ? "exact optimum" : "best flight of the search";
+}
+
+std::string FlightName(const FlownPolicy& flown, const std::string& policy) {
+  return flown.plan && !flown.plan->optimal ? FoundFlightName(false) : policy;
+}
+
+std::string FlightSummary(const FlownPolicy& flown, const std::string& policy) {
+  const AoiFigures figures = Figures(flown.world, flown.flight);
+  return fmt::format("{}: {}; average AoI {:.3f} slots, total AoI {}, {:.0f} J left",
+                     FlightName(flown, policy), OutcomeName(flown.flight.outcome), figures.average_aoi,
+                     figures.total_aoi, flown.flight.residual_energy_j);
 }
 
 }  // namespace fresco

@@ -44,7 +44,14 @@ struct FlownPolicy {
 /// asked to stop.
 FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen);
 
+/// What the best flight that a search found is called: the exact optimum only if it is proved.
+std::string FoundFlightName(bool proved);
+
+/// What the flight is called: the policy that was named, or what it is if the search for the optimum was
+/// ended before the proof.
+std::string FlightName(const FlownPolicy& flown, const std::string& policy);
+
 /// "aoi: arrived; average AoI 17.543 slots, total AoI 3684, 14211 J left".
-std::string FlightSummary(const World& world, const Flight& flight, const std::string& policy);
+std::string FlightSummary(const FlownPolicy& flown, const std::string& policy);
 
 }  // namespace fresco

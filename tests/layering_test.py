@@ -19,7 +19,7 @@ ALLOWED = {
     "actors": {"core", "nn", "worlds", "bus", "msgs", "training"},
     "learner": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs"},
     "logs": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs"},
-    "processes": {"core", "bus", "msgs", "runs"},
+    "processes": {"core", "bus", "msgs", "runs", "actors", "learner"},
     "report": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs", "processes"},
     "soak": {"core", "bus", "msgs", "runs", "processes", "report"},
     "tools": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs", "actors", "learner", "logs",

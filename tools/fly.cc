@@ -36,7 +36,7 @@ class FlightShow {
  public:
   FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
       : flown_(flown),
-        messages_(FlightMessages(flown.world, flown.flight, options.choice.policy)),
+        messages_(FlightMessages(flown.world, flown.flight, FlightName(flown, options.choice.policy))),
         field_(ScenarioMessages(flown.world.scenario())),
         bus_(std::move(bus)),
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
@@ -138,7 +138,7 @@ int FlyOverBus(const FlyOptions& options) {
   while (options.loop && whole) {
     whole = show.Show();
   }
-  fmt::print("{}\n", FlightSummary(flown.world, flown.flight, options.choice.policy));
+  fmt::print("{}\n", FlightSummary(flown, options.choice.policy));
   return whole || options.loop ? 0 : 1;
 }
 
