@@ -22,7 +22,7 @@ endif()
 add_library(fresco_warnings INTERFACE)
 target_compile_options(fresco_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Woverloaded-virtual -Wold-style-cast -Wcast-qual -Wunused -Wnull-dereference
+  -Woverloaded-virtual -Wold-style-cast -Wcast-qual -Wunused
   # gcc 12 reports its own AVX-512 intrinsics wherever Eigen uses them
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
   $<$<BOOL:${FRESCO_WARNINGS_AS_ERRORS}>:-Werror>)
