@@ -2,7 +2,7 @@
 
 #include "learner/weight_publisher.h"
 #include "msgs/versions_in_flight.h"
-#include "runs/checkpoint_file.h"
+#include "storage/checkpoint_file.h"
 #include "training/action_history.h"
 #include "training/dqn.h"
 #include "training/ledger.h"

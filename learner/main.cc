@@ -16,7 +16,7 @@
 #include "learner/learner_process.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
-#include "runs/resumption.h"
+#include "storage/resumption.h"
 
 namespace fresco {
 namespace {

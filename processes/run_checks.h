@@ -6,7 +6,7 @@
 
 #include "bus/open_bus.h"
 #include "msgs/experiment.h"
-#include "runs/run_folder.h"
+#include "storage/run_folder.h"
 
 namespace fresco {
 

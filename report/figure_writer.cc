@@ -13,8 +13,8 @@
 #include "report/flight_map.h"
 #include "report/run_report.h"
 #include "report/train_display.h"
-#include "runs/flown_policy.h"
-#include "runs/policy.h"
+#include "storage/flown_policy.h"
+#include "storage/policy.h"
 
 namespace fresco {
 namespace {

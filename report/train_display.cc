@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "runs/flown_policy.h"
-#include "runs/optimum_search.h"
+#include "storage/flown_policy.h"
+#include "storage/optimum_search.h"
 #include "worlds/uav/flight.h"
 
 namespace fresco {

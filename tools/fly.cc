@@ -16,7 +16,7 @@
 #include "msgs/channels.h"
 #include "msgs/flight_messages.h"
 #include "msgs/scenario_codec.h"
-#include "runs/flown_policy.h"
+#include "storage/flown_policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

@@ -13,7 +13,7 @@
 #include "msgs/settings.h"
 #include "report/run_report.h"
 #include "report/train_display.h"
-#include "runs/new_run_folder.h"
+#include "storage/new_run_folder.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

@@ -9,7 +9,7 @@
 
 #include "learner/weight_publisher.h"
 #include "msgs/versions_in_flight.h"
-#include "runs/checkpoint_file.h"
+#include "storage/checkpoint_file.h"
 #include "tests/support/heap_use.h"
 #include "tests/support/sanitized.h"
 #include "tests/training/recorded_run.h"

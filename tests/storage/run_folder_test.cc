@@ -1,4 +1,4 @@
-#include "runs/run_folder.h"
+#include "storage/run_folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "runs/network_file.h"
+#include "storage/network_file.h"
 #include "tests/training/literal_run.h"
 
 namespace fresco {

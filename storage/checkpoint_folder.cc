@@ -1,4 +1,4 @@
-#include "runs/checkpoint_folder.h"
+#include "storage/checkpoint_folder.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -1,4 +1,4 @@
-#include "runs/run_folder.h"
+#include "storage/run_folder.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/folder_lock.h"
 #include "core/output_folder.h"
-#include "runs/network_file.h"
+#include "storage/network_file.h"
 
 namespace fresco {
 

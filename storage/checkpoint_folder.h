@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/checkpoint_file.h"
+#include "storage/checkpoint_file.h"
 
 namespace fresco {
 

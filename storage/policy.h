@@ -4,7 +4,7 @@
 #include <string>
 
 #include "planner/planner.h"
-#include "runs/network_file.h"
+#include "storage/network_file.h"
 #include "worlds/uav/flight.h"
 
 namespace fresco {

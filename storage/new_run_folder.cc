@@ -1,4 +1,4 @@
-#include "runs/new_run_folder.h"
+#include "storage/new_run_folder.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "runs/optimum_search.h"
+#include "storage/optimum_search.h"
 
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>

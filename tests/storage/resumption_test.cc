@@ -1,5 +1,5 @@
 // What a killed learner finds in its folder: whole, torn, foreign and newer checkpoints.
-#include "runs/resumption.h"
+#include "storage/resumption.h"
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
@@ -7,8 +7,8 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "runs/checkpoint_folder.h"
-#include "runs/run_folder.h"
+#include "storage/checkpoint_folder.h"
+#include "storage/run_folder.h"
 #include "tests/training/recorded_run.h"
 
 namespace fresco {

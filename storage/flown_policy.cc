@@ -1,4 +1,4 @@
-#include "runs/flown_policy.h"
+#include "storage/flown_policy.h"
 
 #include <fmt/format.h>
 

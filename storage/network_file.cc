@@ -1,4 +1,4 @@
-#include "runs/network_file.h"
+#include "storage/network_file.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "msgs/experiment.h"
-#include "runs/checkpoint_folder.h"
+#include "storage/checkpoint_folder.h"
 
 namespace fresco {
 

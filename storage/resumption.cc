@@ -1,12 +1,12 @@
-#include "runs/resumption.h"
+#include "storage/resumption.h"
 
 #include <fmt/format.h>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "runs/checkpoint_folder.h"
-#include "runs/run_folder.h"
-#include "runs/summary.h"
+#include "storage/checkpoint_folder.h"
+#include "storage/run_folder.h"
+#include "storage/summary.h"
 
 namespace fresco {
 namespace {

@@ -1,4 +1,4 @@
-#include "runs/policy.h"
+#include "storage/policy.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include "core/live_line.h"
 #include "core/nearest_name.h"
 #include "core/signals.h"
-#include "runs/checkpoint_file.h"
-#include "runs/run_folder.h"
+#include "storage/checkpoint_file.h"
+#include "storage/run_folder.h"
 #include "training/flyer.h"
 
 namespace fresco {

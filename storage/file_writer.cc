@@ -1,4 +1,4 @@
-#include "runs/file_writer.h"
+#include "storage/file_writer.h"
 
 #include <spdlog/spdlog.h>
 

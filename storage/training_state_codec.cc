@@ -1,4 +1,4 @@
-#include "runs/training_state_codec.h"
+#include "storage/training_state_codec.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "runs/checkpoint_file.h"
+#include "storage/checkpoint_file.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "core/crc32c.h"
 #include "core/error.h"
 #include "core/version.h"
-#include "runs/training_state_codec.h"
+#include "storage/training_state_codec.h"
 
 namespace fresco {
 namespace {

@@ -1,5 +1,5 @@
 // The search beside the training gives what the planner gives, and ends when it is told to.
-#include "runs/optimum_search.h"
+#include "storage/optimum_search.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 
 #include "msgs/experiment.h"
 #include "planner/planner.h"
-#include "runs/bus_counters.h"
-#include "runs/optimum_search.h"
+#include "storage/bus_counters.h"
+#include "storage/optimum_search.h"
 #include "training/trainer.h"
 
 namespace fresco {

@@ -1,4 +1,4 @@
-#include "runs/summary.h"
+#include "storage/summary.h"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "msgs/experiment.h"
-#include "runs/checkpoint_folder.h"
-#include "runs/file_writer.h"
+#include "storage/checkpoint_folder.h"
+#include "storage/file_writer.h"
 #include "training/training_state.h"
 
 namespace fresco {

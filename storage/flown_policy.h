@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "msgs/experiment.h"
-#include "runs/policy.h"
+#include "storage/policy.h"
 
 namespace fresco {
 

@@ -1,9 +1,9 @@
-#include "runs/checkpoint_file.h"
+#include "storage/checkpoint_file.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "runs/network_file.h"
+#include "storage/network_file.h"
 
 namespace fresco {
 namespace {

@@ -1,5 +1,5 @@
 // summary.json, read with a JSON parser and held against figures that are worked out here.
-#include "runs/summary.h"
+#include "storage/summary.h"
 
 #include <gtest/gtest.h>
 
