@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "msgs/protocol_times.h"
 #include "msgs/weights_codec.h"
 #include "nn/mlp.h"
 
@@ -17,11 +18,6 @@ namespace fresco {
 
 /// One version of one of the two networks.
 using NetworkVersion = std::pair<NetworkKind, int32_t>;
-
-/// No chunk of a version for so long: what is missing of it was lost.
-inline constexpr int64_t kQuietUs = 4'000;
-/// Between two reports of missing chunks.
-inline constexpr int64_t kRequestPeriodUs = 8'000;
 
 class NetworkStore {
  public:
@@ -49,7 +45,7 @@ class NetworkStore {
   /// missing chunks are reported.
   void SetWanted(std::set<NetworkVersion> wanted);
 
-  /// Ranges of missing chunks of versions of which nothing has arrived for kQuietUs: first of the wanted
+  /// Ranges of missing chunks of versions of which nothing has arrived for kQuietVersionUs: first of the wanted
   /// ones, then of those that are on their way, which the next orders will name: some chunk came within the
   /// last half second, and they are no older than the oldest wanted of late. At most
   /// kMaximumMissingRanges.

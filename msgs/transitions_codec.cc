@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "core/clock.h"
 #include "core/memory_need.h"
 #include "msgs/episode.h"
 
@@ -129,16 +128,13 @@ int TransitionsPerMessage(int sensors) {
   return FittingTransitions(sensors);
 }
 
-void SendEpisode(const World& world, const Episode& episode, RunIdentity identity, int64_t actor_id,
-                 const std::function<void(std::span<const std::byte>)>& send) {
+void SplitEpisode(const World& world, const Episode& episode, int64_t actor_id,
+                  const std::function<void(const transitions_t&)>& send) {
   const int step = TransitionsPerMessage(world.sensors());
-  std::vector<std::byte> bytes;
   for (int first = 0; first < episode.transitions(); first += step) {
     transitions_t message = MessageOf(world, episode, first, std::min(step, episode.transitions() - first));
     message.actor_id = actor_id;
-    Stamp(message, identity, WallMicroseconds());
-    Encode(message, bytes);
-    send(bytes);
+    send(message);
   }
 }
 

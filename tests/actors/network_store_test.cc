@@ -71,7 +71,7 @@ TEST(NetworkStore, RejectsAVersionWhoseCrcDoesNotHoldAndAsksForAllOfIt) {
   EXPECT_EQ(store.Find(kCurrent7), nullptr);
   EXPECT_TRUE(store.HeldVersions().empty());
   store.MissingRanges(0);
-  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietVersionUs)), (Ranges{{0, 7, 0, kChunks}}));
   Complete(store, kCurrent7, kParameters);
   EXPECT_TRUE(Holds(store, kCurrent7, kParameters));
 }

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "msgs/episode.h"
+#include "tests/msgs/message_samples.h"
 
 namespace fresco {
 namespace {
@@ -47,7 +48,8 @@ Episode RandomEpisode(const World& world, RandomStream& stream) {
 
 std::vector<transitions_t> Messages(const World& world, const Episode& episode) {
   std::vector<transitions_t> messages;
-  SendEpisode(world, episode, {3, 4}, 5, [&](std::span<const std::byte> bytes) {
+  SplitEpisode(world, episode, 5, [&](const transitions_t& message) {
+    const std::vector<std::byte> bytes = Encoded(message);
     EXPECT_LE(bytes.size(), kMaximumMessageBytes);
     EXPECT_TRUE(Decode(bytes, messages.emplace_back()));
   });

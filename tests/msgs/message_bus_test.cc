@@ -1,6 +1,6 @@
-// A program that has another key than the others, or none, or a key that they have not, learns why it hears
-// nothing.
-#include "msgs/key_mismatch.h"
+// What is sent arrives as it was, with its run and the time; what does not decode is counted; and a program that
+// has another key than the others, or none, or a key that they have not, learns why it hears nothing.
+#include "msgs/message_bus.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,26 +18,20 @@ AuthenticationKey KeyFrom(const std::string& secret) {
   return AuthenticationKey(std::as_bytes(std::span(secret)));
 }
 
-/// A program's side of the bus: what does not decode is noted.
+/// A program's side of the bus.
 class Program {
  public:
-  Program(Bus& bus, const std::string& channel) : mismatch_(bus) {
-    bus.Subscribe(channel, [this](auto bytes) {
-      orders_t message{};
-      if (Decode(bytes, message)) {
-        ++decoded;
-      } else {
-        mismatch_.Note(bytes);
-      }
-    });
+  Program(Bus& bus, const std::string& channel) : bus_(bus) {
+    bus_.Subscribe<orders_t>(channel, [this](const orders_t&) { ++decoded; });
   }
 
   int decoded = 0;
-  std::string Reason() const { return mismatch_.Reason(); }
-  std::string News() { return mismatch_.News(); }
+  std::string Reason() const { return bus_.KeyMismatch(); }
+  std::string News() { return bus_.KeyMismatchNews(); }
+  int64_t malformed() const { return bus_.malformed_messages(); }
 
  private:
-  KeyMismatch mismatch_;
+  MessageBus bus_;
 };
 
 class KeyMismatchTest : public ::testing::Test {
@@ -101,7 +95,31 @@ TEST_F(KeyMismatchTest, IsNotSuspectedInRubbish) {
   while (bus_->Poll(0) > 0) {
   }
   EXPECT_EQ(program.decoded, 0);
+  EXPECT_EQ(program.malformed(), 10);
   EXPECT_THAT(program.Reason(), IsEmpty());
+}
+
+TEST(MessageBus, HandsOutWhatWasSentWithItsRunAndTheTimeOfSending) {
+  const std::unique_ptr<Bus> bus = OpenLcmBus("memq://");
+  MessageBus sender(*bus);
+  MessageBus receiver(*bus);
+  std::vector<orders_t> received;
+  receiver.Subscribe<orders_t>("A", [&](const orders_t& message) { received.push_back(message); });
+  RandomStream stream(3, RandomPurpose::kTest, 0, 0);
+  const orders_t sent = OrdersOf(stream, 3);
+  const int64_t before = WallMicroseconds();
+  EXPECT_TRUE(sender.Publish("A", sent, {77, 0xfeedu}));
+  EXPECT_TRUE(sender.Publish("B", sent, {77, 0xfeedu}));
+  while (receiver.Poll(0) > 0) {
+  }
+  ASSERT_EQ(received.size(), 1u);
+  EXPECT_EQ(IdentityOf(received[0]), (RunIdentity{77, 0xfeedu}));
+  EXPECT_GE(received[0].utime, before);
+  EXPECT_LE(received[0].utime, WallMicroseconds());
+  orders_t expected = sent;
+  Stamp(expected, {77, 0xfeedu}, received[0].utime);
+  EXPECT_EQ(Encoded(received[0]), Encoded(expected));
+  EXPECT_EQ(receiver.malformed_messages(), 0);
 }
 
 }  // namespace
