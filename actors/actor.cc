@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "actors/actor_memory.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "msgs/current_run.h"
@@ -105,6 +106,7 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
                                    IdentityOf(message).config_hash));
     }
     const int capacity = options_.capacity.value_or(experiment.run().environments_per_actor());
+    RefuseIfTooLarge({ActorMemory(experiment, capacity)}, options_.available_memory());
     if (session_ != nullptr) {
       spdlog::warn(
           "leaving run {:016x}: its messages are not of now by this host's clock, those of another run are",

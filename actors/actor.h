@@ -13,6 +13,7 @@
 #include "actors/network_store.h"
 #include "bus/bus.h"
 #include "core/attentive_clock.h"
+#include "core/available_memory.h"
 #include "core/clock.h"
 #include "msgs/channels.h"
 #include "msgs/key_mismatch.h"
@@ -29,6 +30,8 @@ struct ActorOptions {
   int32_t pid = 0;
   std::function<int64_t()> clock_us = MonotonicMicroseconds;  ///< when a message arrives
   std::function<int64_t()> wall_clock_us = WallMicroseconds;  ///< to tell recordings of earlier runs
+  /// A run whose configuration takes more is refused.
+  std::function<AvailableMemory()> available_memory = [] { return ReadAvailableMemory(); };
 };
 
 /// Messages, by cause.

@@ -24,6 +24,13 @@ chunk_range_t Range(NetworkVersion version, int first, int count) {
 
 }  // namespace
 
+int64_t NetworkStore::BytesFor(int64_t parameters, int64_t wanted) {
+  const int64_t of_version = static_cast<int64_t>(sizeof(Assembly)) +
+                             parameters * static_cast<int64_t>(sizeof(Vector::Scalar)) +
+                             ChunkCount(parameters);
+  return (wanted + static_cast<int64_t>(kSpareVersions)) * of_version;
+}
+
 NetworkStore::Arrival NetworkStore::Add(NetworkKind kind, const weights_t& message, int64_t now_us) {
   const int chunk = ChunkIndex(message, parameters_);
   if (chunk < 0) {

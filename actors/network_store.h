@@ -28,6 +28,9 @@ class NetworkStore {
   /// For networks of `parameters` values.
   explicit NetworkStore(int64_t parameters) : parameters_(parameters) {}
 
+  /// What it takes of memory at most while so many versions are wanted.
+  static int64_t BytesFor(int64_t parameters, int64_t wanted);
+
   enum class Arrival {
     kAccepted,   ///< a new chunk
     kDuplicate,  ///< a chunk that is there

@@ -21,8 +21,8 @@
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
 #include "msgs/key_mismatch.h"
-#include "runs/bus_counters.h"
-#include "runs/optimum_search.h"
+#include "storage/bus_counters.h"
+#include "storage/optimum_search.h"
 #include "training/ledger.h"
 #include "training/trainer.h"
 

@@ -13,6 +13,12 @@ constexpr int64_t kAnswerAgainUs = 6'000;  // what was sent just now may still b
 
 }  // namespace
 
+int64_t WeightPublisher::BytesPerVersion(int64_t parameters) {
+  const auto of_chunk = static_cast<int64_t>(sizeof(decltype(Version::due)::value_type) +
+                                             sizeof(decltype(Version::sent_us)::value_type));
+  return static_cast<int64_t>(sizeof(Version)) + ChunkCount(parameters) * of_chunk;
+}
+
 void WeightPublisher::Offer(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
   Version entry;
   const auto size = static_cast<size_t>(parameters->size());

@@ -17,6 +17,9 @@ namespace fresco {
 
 class WeightPublisher {
  public:
+  /// What a version takes of memory beside its parameters.
+  static int64_t BytesPerVersion(int64_t parameters);
+
   /// Offers a version; all its chunks are due.
   void Offer(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
 

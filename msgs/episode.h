@@ -27,6 +27,9 @@ struct Episode {
   void Clear();
 };
 
+/// What the longest episode of the world takes of memory, the object itself included.
+int64_t LongestEpisodeBytes(const World& world);
+
 /// Bytes of one mask over the world's actions.
 inline int MaskSize(const World& world) {
   return (world.actions() + 7) / 8;

@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "core/clock.h"
+#include "core/memory_need.h"
 #include "msgs/episode.h"
 
 namespace fresco {
@@ -89,6 +90,18 @@ bool ReadTransition(const World& world, const transitions_t& message, size_t i, 
 }
 
 }  // namespace
+
+int64_t LongestEpisodeBytes(const World& world) {
+  const auto values = [](const auto& vector) { return static_cast<int64_t>(sizeof(vector[0])); };
+  const Episode episode;
+  const State state;
+  const int64_t transitions = world.maximum_transitions();
+  const int64_t state_bytes = values(episode.states) + HeapBytes(world.sensors() * values(state.aoi));
+  const int64_t transition_bytes = values(episode.actions) + values(episode.rewards) +
+                                   values(episode.td_errors) + MaskSize(world) * values(episode.next_masks);
+  return static_cast<int64_t>(sizeof(Episode)) + (transitions + 1) * state_bytes +
+         transitions * transition_bytes;
+}
 
 void Episode::Clear() {
   order_index = 0;

@@ -19,6 +19,11 @@ class Adam {
  public:
   Adam(int64_t parameter_count, AdamOptions options);
 
+  /// What the moments take of memory.
+  static int64_t BytesFor(int64_t parameter_count) {
+    return 2 * parameter_count * static_cast<int64_t>(sizeof(Vector::Scalar));
+  }
+
   /// One step: parameters -= learning_rate * m_hat / (sqrt(v_hat) + epsilon).
   void Step(std::span<const float> gradient, double learning_rate, std::span<float> parameters);
 

@@ -53,6 +53,9 @@ class MlpWorkspace {
  public:
   MlpWorkspace(const MlpShape& shape, int batch_capacity);
 
+  /// What a workspace takes of memory: for Forward alone, or for Backward, too.
+  static int64_t BytesFor(const MlpShape& shape, int batch_capacity, bool backward);
+
   /// Where the caller writes the observations before Forward: [inputs x batch_capacity].
   Matrix& input() { return activations_.front(); }
 

@@ -6,12 +6,13 @@
 
 #include "bus/open_bus.h"
 #include "msgs/experiment.h"
-#include "runs/run_folder.h"
+#include "storage/run_folder.h"
 
 namespace fresco {
 
-/// The programs that a run is made of are there, and this machine can do what the experiment asks for.
-/// Whatever else can be said of an experiment before it runs belongs here. Throws UsageError.
+/// The programs that a run is made of are there, and this host has the memory for its learner and its local
+/// actors, each alone and all together. Whatever else can be said of an experiment before it runs belongs
+/// here. Throws UsageError.
 void CheckRun(const Experiment& experiment);
 
 /// For commands with many runs: CheckRun, and also that the bus of the runs can be opened. It is closed

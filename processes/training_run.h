@@ -15,8 +15,8 @@
 #include "msgs/wire.h"
 #include "processes/restart_policy.h"
 #include "processes/run_recorder.h"
-#include "runs/resumption.h"
-#include "runs/run_folder.h"
+#include "storage/resumption.h"
+#include "storage/run_folder.h"
 
 namespace fresco {
 

@@ -18,9 +18,6 @@ std::string ProgressLine(const learner_status_t& status);
 /// stands in its place, and no row has a gap.
 std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json);
 
-/// What the best flight that a search found is called: the exact optimum only if it is proved.
-std::string FoundFlightName(bool proved);
-
 /// If the optimum was searched for and is not proved: why, what is proved instead, and what follows from that
 /// for this run. Empty otherwise.
 std::string OptimumNote(const std::string& summary_json);

@@ -16,7 +16,7 @@
 #include "msgs/channels.h"
 #include "msgs/flight_messages.h"
 #include "msgs/scenario_codec.h"
-#include "runs/flown_policy.h"
+#include "storage/flown_policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -36,7 +36,7 @@ class FlightShow {
  public:
   FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
       : flown_(flown),
-        messages_(FlightMessages(flown.world, flown.flight, options.choice.policy)),
+        messages_(FlightMessages(flown.world, flown.flight, FlightName(flown, options.choice.policy))),
         field_(ScenarioMessages(flown.world.scenario())),
         bus_(std::move(bus)),
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
@@ -138,7 +138,7 @@ int FlyOverBus(const FlyOptions& options) {
   while (options.loop && whole) {
     whole = show.Show();
   }
-  fmt::print("{}\n", FlightSummary(flown.world, flown.flight, options.choice.policy));
+  fmt::print("{}\n", FlightSummary(flown, options.choice.policy));
   return whole || options.loop ? 0 : 1;
 }
 

@@ -12,6 +12,11 @@ class ActionHistory {
   /// For a replay memory of `capacity` transitions and episodes of at most `longest_episode`.
   ActionHistory(int64_t capacity, int longest_episode);
 
+  /// What it takes of memory beside the object itself.
+  static int64_t BytesFor(int64_t capacity, int longest_episode) {
+    return (capacity + longest_episode) * static_cast<int64_t>(sizeof(Entry));
+  }
+
   /// Notes a transition's action; `last`: it ends its episode.
   void Add(int16_t action, bool last);
 

@@ -22,6 +22,11 @@ class Dqn {
   /// Both networks begin as `initial`.
   Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options);
 
+  /// What it takes of memory beside the object itself, once it is warm: for the networks, their gradient and
+  /// Adam's moments, and for a batch.
+  static int64_t ParameterBytes(const MlpShape& shape);
+  static int64_t BatchBytes(const MlpShape& shape, int batch_size);
+
   /// One step on L = mean (y - Q(s, a))^2 (eq. Loss-Func), y = r, plus discount * max over the
   /// actions allowed in s' of the target network where s' is not terminal; y is at least the
   /// transition's least value. Returns L before the step.

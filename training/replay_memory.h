@@ -16,6 +16,9 @@ namespace fresco {
 struct MiniBatch {
   MiniBatch(int inputs, int actions, int batch_size);
 
+  /// What it takes of memory beside the object itself.
+  static int64_t BytesFor(int inputs, int actions, int batch_size);
+
   int size() const { return static_cast<int>(actions.size()); }
 
   Matrix observations;       ///< [inputs x batch]
@@ -42,6 +45,9 @@ class ReplayMemory {
  public:
   ReplayMemory(int inputs, int actions, int64_t capacity);
 
+  /// What it takes of memory beside the object itself, once it is full.
+  static int64_t BytesFor(int inputs, int actions, int64_t capacity);
+
   void Insert(const Transition& transition);
 
   /// An empty memory goes on as if `transitions` had been inserted and were forgotten: the next one takes
@@ -56,6 +62,7 @@ class ReplayMemory {
 
  private:
   void Copy(int64_t place, int column, MiniBatch& batch) const;
+  static size_t MaskBytes(int actions) { return (static_cast<size_t>(actions) + 7) / 8; }
 
   int actions_;
   int64_t capacity_;

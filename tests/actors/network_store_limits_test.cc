@@ -9,12 +9,7 @@
 namespace fresco {
 namespace {
 
-using Arrival = NetworkStore::Arrival;
-
-constexpr int64_t kParameters = 3000;
-constexpr int kChunks = 10;
 constexpr int kLarge = 100 * kValuesPerChunk;  // values in a hundred chunks
-constexpr NetworkVersion kCurrent7{NetworkKind::kCurrent, 7};
 constexpr NetworkVersion kTarget2{NetworkKind::kTarget, 2};
 
 TEST(NetworkStore, RejectsSizesAndOffsetsThatAreNotThoseOfAChunk) {

@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "logs/event_log_writer.h"
 #include "msgs/episode.h"
-#include "runs/checkpoint_file.h"
-#include "runs/network_file.h"
+#include "storage/checkpoint_file.h"
+#include "storage/network_file.h"
 #include "tests/msgs/message_samples.h"
 #include "worlds/uav/environment.h"
 

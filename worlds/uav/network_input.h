@@ -1,6 +1,7 @@
 // What the network sees of a state. Immutable after construction, so any number of threads may share one.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,8 @@ class NetworkInput {
   /// Entries for so many sensors.
   static int Size(int sensors, NetworkInputOptions options);
   int size() const { return Size(world_->sensors(), options_); }
+  /// What it takes of memory beside the object itself.
+  static int64_t BytesFor(const World& world, NetworkInputOptions options);
 
   /// `input` has size() entries. A pure function of the state as it is on the wire, so that actor and
   /// learner see the same bits.

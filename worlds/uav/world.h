@@ -45,6 +45,9 @@ class World {
   int actions() const { return kMoves * (sensors() + 1); }
   int maximum_transitions() const { return scenario_.slots - 1; }
 
+  /// What the world takes of memory beside the object itself.
+  int64_t bytes() const;
+
   /// theta_n, summing to one.
   std::span<const double> theta() const { return theta_; }
 
