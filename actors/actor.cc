@@ -6,18 +6,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "actors/actor_memory.h"
 #include "core/clock.h"
 #include "core/error.h"
-#include "msgs/current_run.h"
+#include "msgs/protocol_times.h"
 
 namespace fresco {
 namespace {
 
-constexpr int64_t kStatusPeriodUs = 100'000;
-constexpr int64_t kSilentRunUs = 10'000'000;
-// So far behind the newest message of its learner, a message is a recorded one that somebody sends again.
-constexpr int64_t kStaleUs = 1'000'000;
-constexpr int64_t kSendAgainUs = 50'000;  // the learner repeats an order every 60 ms
 constexpr int64_t kLargestIndex = int64_t{1} << 32;
 
 }  // namespace
@@ -30,30 +26,21 @@ Actor::Session::Session(Experiment the_experiment, RunIdentity the_identity, int
       flyer(world, experiment, capacity) {}
 
 Actor::Actor(Bus& bus, const Channels& channels, ActorOptions options)
-    : bus_(&bus),
+    : bus_(bus),
       channels_(channels),
       options_(std::move(options)),
-      arithmetic_fingerprint_(ArithmeticFingerprint()),
-      key_mismatch_(bus) {
-  Subscribe<run_t>(channels_.run, [this](const run_t& message) { HandleRun(message); });
-  Subscribe<orders_t>(channels_.orders, [this](const orders_t& message) { HandleOrders(message); });
-  Subscribe<weights_t>(channels_.weights_current,
-                       [this](const weights_t& message) { HandleWeights(NetworkKind::kCurrent, message); });
-  Subscribe<weights_t>(channels_.weights_target,
-                       [this](const weights_t& message) { HandleWeights(NetworkKind::kTarget, message); });
+      arithmetic_fingerprint_(ArithmeticFingerprint()) {
+  Subscribe(channels_.run, &Actor::HandleRun);
+  Subscribe(channels_.orders, &Actor::HandleOrders);
+  Subscribe(channels_.weights_current, &Actor::HandleWeights<NetworkKind::kCurrent>);
+  Subscribe(channels_.weights_target, &Actor::HandleWeights<NetworkKind::kTarget>);
 }
 
-template <class Message, class Handler>
-void Actor::Subscribe(const std::string& channel, Handler handler) {
-  auto message = std::make_shared<Message>();
-  bus_->Subscribe(channel, [this, handler, message](std::span<const std::byte> bytes) {
-    if (!Decode(bytes, *message)) {
-      ++totals_.rejected.malformed;
-      key_mismatch_.Note(bytes);
-      return;
-    }
+template <class Message>
+void Actor::Subscribe(const std::string& channel, void (Actor::*handle)(const Message&)) {
+  bus_.Subscribe<Message>(channel, [this, handle](const Message& message) {
     now_us_ = options_.clock_us();
-    handler(*message);
+    (this->*handle)(message);
   });
 }
 
@@ -105,6 +92,7 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
                                    IdentityOf(message).config_hash));
     }
     const int capacity = options_.capacity.value_or(experiment.run().environments_per_actor());
+    RefuseIfTooLarge({ActorMemory(experiment, capacity)}, options_.available_memory());
     if (session_ != nullptr) {
       spdlog::warn(
           "leaving run {:016x}: its messages are not of now by this host's clock, those of another run are",
@@ -188,7 +176,7 @@ void Actor::TakeOrder(const Order& order) {
 }
 
 void Actor::SendAgain(Flown& flown) {
-  if (now_us_ - flown.sent_us >= kSendAgainUs) {
+  if (now_us_ - flown.sent_us >= kResendPeriodUs) {
     flown.sent_us = now_us_;
     ++totals_.resent_episodes;
     Send(flown.episode);
@@ -212,7 +200,8 @@ void Actor::KeepWindow(int64_t committed) {
   keep(session_->flown);
 }
 
-void Actor::HandleWeights(NetworkKind kind, const weights_t& message) {
+template <NetworkKind kind>
+void Actor::HandleWeights(const weights_t& message) {
   if (!IsMine(IdentityOf(message), message.utime)) {
     return;
   }
@@ -275,8 +264,9 @@ void Actor::StartFlights() {
 }
 
 void Actor::Send(const Episode& episode) {
-  SendEpisode(session_->world, episode, session_->identity, options_.actor_id,
-              [this](std::span<const std::byte> bytes) { bus_->Publish(channels_.transitions, bytes); });
+  SplitEpisode(session_->world, episode, options_.actor_id, [this](const transitions_t& message) {
+    bus_.Publish(channels_.transitions, message, session_->identity);
+  });
 }
 
 void Actor::SendStatusIfDue(int64_t now_us) {
@@ -284,19 +274,16 @@ void Actor::SendStatusIfDue(int64_t now_us) {
   if (now_us < next_status_us_ && !may_request) {
     return;
   }
-  next_request_us_ = now_us + kRequestPeriodUs;
+  next_request_us_ = now_us + kChunkRequestPeriodUs;
   actor_status_t status = Status(now_us);
   if (now_us < next_status_us_ && status.missing_count == 0) {
     return;
   }
   status.sequence = next_sequence_++;
-  Stamp(status, session_ != nullptr ? session_->identity : RunIdentity{}, WallMicroseconds());
-  std::vector<std::byte> bytes;
-  Encode(status, bytes);
-  bus_->Publish(channels_.actor_status, bytes);
+  bus_.Publish(channels_.actor_status, status, session_ != nullptr ? session_->identity : RunIdentity{});
   if (now_us >= next_status_us_) {
-    next_status_us_ = now_us + kStatusPeriodUs;
-    if (const std::string news = key_mismatch_.News(); !news.empty()) {
+    next_status_us_ = now_us + kActorStatusPeriodUs;
+    if (const std::string news = bus_.KeyMismatchNews(); !news.empty()) {
       spdlog::warn("{}", news);
     }
   }

@@ -13,9 +13,10 @@
 #include "actors/network_store.h"
 #include "bus/bus.h"
 #include "core/attentive_clock.h"
+#include "core/available_memory.h"
 #include "core/clock.h"
 #include "msgs/channels.h"
-#include "msgs/key_mismatch.h"
+#include "msgs/message_bus.h"
 #include "msgs/run_announcements.h"
 #include "training/flyer.h"
 
@@ -29,6 +30,8 @@ struct ActorOptions {
   int32_t pid = 0;
   std::function<int64_t()> clock_us = MonotonicMicroseconds;  ///< when a message arrives
   std::function<int64_t()> wall_clock_us = WallMicroseconds;  ///< to tell recordings of earlier runs
+  /// A run whose configuration takes more is refused.
+  std::function<AvailableMemory()> available_memory = [] { return ReadAvailableMemory(); };
 };
 
 /// Messages, by cause.
@@ -97,7 +100,8 @@ class Actor {
 
   void HandleRun(const run_t& message);
   void HandleOrders(const orders_t& message);
-  void HandleWeights(NetworkKind kind, const weights_t& message);
+  template <NetworkKind kind>
+  void HandleWeights(const weights_t& message);
   void StartSession(const run_t& message, const std::string& text);
   void TakeOrder(const Order& order);
   int64_t WindowEnd(int64_t committed) const;
@@ -117,15 +121,14 @@ class Actor {
   bool WouldLeaveFor(const run_t& other) const;
   void NoteRefusal(int64_t run_id, const char* reason);
 
-  template <class Message, class Handler>
-  void Subscribe(const std::string& channel, Handler handler);
+  template <class Message>
+  void Subscribe(const std::string& channel, void (Actor::*handle)(const Message&));
 
-  Bus* bus_;
+  MessageBus bus_;
   Channels channels_;
   ActorOptions options_;
   uint32_t arithmetic_fingerprint_;
   ActorTotals totals_;  // without what the bus refused
-  KeyMismatch key_mismatch_;
   RunAnnouncements announcements_;
   std::unique_ptr<Session> session_;
   bool run_over_ = false;

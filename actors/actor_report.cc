@@ -92,7 +92,8 @@ void Actor::AddSession(Session& session, int64_t now_us, actor_status_t& status)
 
 ActorTotals Actor::totals() const {
   ActorTotals totals = totals_;
-  totals.rejected.unauthenticated = bus_->refused_messages();
+  totals.rejected.malformed = bus_.malformed_messages();
+  totals.rejected.unauthenticated = bus_.unauthenticated_messages();
   return totals;
 }
 

@@ -24,6 +24,13 @@ chunk_range_t Range(NetworkVersion version, int first, int count) {
 
 }  // namespace
 
+int64_t NetworkStore::BytesFor(int64_t parameters, int64_t wanted) {
+  const int64_t of_version = static_cast<int64_t>(sizeof(Assembly)) +
+                             parameters * static_cast<int64_t>(sizeof(Vector::Scalar)) +
+                             ChunkCount(parameters);
+  return (wanted + static_cast<int64_t>(kSpareVersions)) * of_version;
+}
+
 NetworkStore::Arrival NetworkStore::Add(NetworkKind kind, const weights_t& message, int64_t now_us) {
   const int chunk = ChunkIndex(message, parameters_);
   if (chunk < 0) {
@@ -121,10 +128,10 @@ std::vector<chunk_range_t> NetworkStore::MissingRanges(int64_t now_us) {
     const auto found = versions_.find(version);
     if (found == versions_.end()) {
       const int64_t since_us = asked_us_.try_emplace(version, now_us).first->second;
-      if (now_us - since_us >= kQuietUs && ranges.size() < kMaximumMissingRanges) {
+      if (now_us - since_us >= kQuietVersionUs && ranges.size() < kMaximumMissingRanges) {
         ranges.push_back(Range(version, 0, ChunkCount(parameters_)));
       }
-    } else if (!found->second.complete() && now_us - found->second.last_arrival_us >= kQuietUs) {
+    } else if (!found->second.complete() && now_us - found->second.last_arrival_us >= kQuietVersionUs) {
       AppendMissing(version, found->second, ranges);
     }
   }
@@ -139,7 +146,7 @@ std::vector<chunk_range_t> NetworkStore::MissingRanges(int64_t now_us) {
 bool NetworkStore::IsOnItsWay(NetworkVersion version, const Assembly& assembly, int64_t now_us) const {
   const int64_t quiet_us = now_us - assembly.last_arrival_us;
   const auto oldest = oldest_wanted_.find(version.first);
-  return !assembly.complete() && !wanted_.contains(version) && quiet_us >= kQuietUs &&
+  return !assembly.complete() && !wanted_.contains(version) && quiet_us >= kQuietVersionUs &&
          quiet_us < kGivenUpUs && (oldest == oldest_wanted_.end() || version.second >= oldest->second);
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "msgs/protocol_times.h"
 #include "msgs/weights_codec.h"
 #include "nn/mlp.h"
 
@@ -19,15 +20,13 @@ namespace fresco {
 /// One version of one of the two networks.
 using NetworkVersion = std::pair<NetworkKind, int32_t>;
 
-/// If no chunk of a version arrives for so long, the store takes its missing chunks for lost.
-inline constexpr int64_t kQuietUs = 4'000;
-/// The least time between two reports of missing chunks.
-inline constexpr int64_t kRequestPeriodUs = 8'000;
-
 class NetworkStore {
  public:
   /// `parameters` (>= 1): number of values in each network.
   explicit NetworkStore(int64_t parameters) : parameters_(parameters) {}
+
+  /// What it takes of memory at most while so many versions are wanted.
+  static int64_t BytesFor(int64_t parameters, int64_t wanted);
 
   enum class Arrival {
     kAccepted,   ///< the chunk was missing
@@ -50,7 +49,7 @@ class NetworkStore {
   void SetWanted(std::set<NetworkVersion> wanted);
 
   /// Returns the missing chunks that the actor should ask for, at most kMaximumMissingRanges ranges. Reports
-  /// a version only if nothing of it has arrived for kQuietUs. Wanted versions come first. Incomplete
+  /// a version only if nothing of it has arrived for kQuietVersionUs. Wanted versions come first. Incomplete
   /// versions that the next orders will probably name follow: a chunk of it arrived within the last half
   /// second, and it is not older than the oldest wanted version of the same network.
   std::vector<chunk_range_t> MissingRanges(int64_t now_us);

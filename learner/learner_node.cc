@@ -7,34 +7,25 @@
 #include <chrono>
 
 #include "core/clock.h"
-#include "msgs/current_run.h"
+#include "msgs/protocol_times.h"
 #include "msgs/scenario_codec.h"
 
 namespace fresco {
 namespace {
 
-constexpr int64_t kRunPeriodUs = 500'000;
-constexpr int64_t kAskedRunPeriodUs = 50'000;
-constexpr int64_t kOrdersPeriodUs = 2'000;
-constexpr int64_t kStatusPeriodUs = 200'000;
-constexpr int64_t kScenarioPeriodUs = 1'000'000;
 constexpr int64_t kPollUs = 1'000;
-// Pacing: 8 chunks, then 0.2 ms, is complete even on Linux's default socket buffers.
-constexpr int kChunksPerBurst = 8;
-constexpr int64_t kBurstPeriodUs = 200;
 
 }  // namespace
 
 LearnerNode::LearnerNode(const Experiment& experiment, const World& world, int64_t run_id, Bus& bus,
                          const Channels& channels)
     : world_(&world),
-      bus_(&bus),
+      bus_(bus),
       channels_(channels),
       identity_{run_id, experiment.hash()},
       config_text_(experiment.Text()),
       total_episodes_(static_cast<int>(experiment.schedule().episodes())),
-      ledger_(world, experiment.mask_options()),
-      key_mismatch_(bus) {
+      ledger_(world, experiment.mask_options()) {
   const MlpShape shape = experiment.network_shape();
   announcement_.protocol_version = kProtocolVersion;
   announcement_.arithmetic_fingerprint = ArithmeticFingerprint();
@@ -42,32 +33,17 @@ LearnerNode::LearnerNode(const Experiment& experiment, const World& world, int64
   announcement_.outputs = shape.outputs();
   announcement_.parameters = static_cast<int32_t>(shape.parameter_count());
   announcement_.values_per_chunk = kValuesPerChunk;
-  Subscribe<transitions_t>(channels_.transitions,
-                           [this](const auto& message) { HandleTransitions(message); });
-  Subscribe<actor_status_t>(channels_.actor_status, [this](const auto& message) { HandleStatus(message); });
-  Subscribe<run_t>(channels_.run, [this](const auto& message) { HandleRun(message); });
-}
-
-template <class Message, class Handler>
-void LearnerNode::Subscribe(const std::string& channel, Handler handler) {
-  auto message = std::make_shared<Message>();
-  bus_->Subscribe(channel, [this, handler, message](std::span<const std::byte> bytes) {
-    const bool decoded = Decode(bytes, *message);
-    const std::lock_guard lock(mutex_);
-    if (decoded) {
-      handler(*message);
-    } else {
-      Reject(&BusCounters::rejected_malformed);
-      key_mismatch_.Note(bytes);
-    }
-  });
+  Subscribe(channels_.transitions, &LearnerNode::HandleTransitions);
+  Subscribe(channels_.actor_status, &LearnerNode::HandleStatus);
+  Subscribe(channels_.run, &LearnerNode::HandleRun);
 }
 
 template <class Message>
-void LearnerNode::Publish(const std::string& channel, Message message) {
-  Stamp(message, identity_, WallMicroseconds());
-  Encode(message, bytes_);
-  bus_->Publish(channel, bytes_);
+void LearnerNode::Subscribe(const std::string& channel, void (LearnerNode::*handle)(const Message&)) {
+  bus_.Subscribe<Message>(channel, [this, handle](const Message& message) {
+    const std::lock_guard lock(mutex_);
+    (this->*handle)(message);
+  });
 }
 
 void LearnerNode::WriteOrder(const Order& order) {
@@ -225,7 +201,7 @@ void LearnerNode::Step() {
   SendWeights(now_us);
   SendStatusIfDue(now_us);
   const int64_t next_us = std::min({next_burst_us_, next_orders_us_, now_us + kPollUs});
-  bus_->Poll(std::max<int64_t>(0, next_us - now_us - (MonotonicMicroseconds() - begin_us)));
+  bus_.Poll(std::max<int64_t>(0, next_us - now_us - (MonotonicMicroseconds() - begin_us)));
 }
 
 void LearnerNode::SendRunIfDue(int64_t now_us) {
@@ -257,7 +233,7 @@ void LearnerNode::SendRun(bool finished) {
     announcement_.part_index = part;
     announcement_.part.assign(text.begin(), text.end());
     announcement_.part_size = static_cast<int32_t>(text.size());
-    Publish(channels_.run, announcement_);
+    bus_.Publish(channels_.run, announcement_, identity_);
   }
 }
 
@@ -265,7 +241,7 @@ void LearnerNode::SendScenarioIfDue(int64_t now_us) {
   if (now_us >= next_scenario_us_) {
     next_scenario_us_ = now_us + kScenarioPeriodUs;
     for (const scenario_t& message : ScenarioMessages(world_->scenario())) {
-      Publish(channels_.scenario, message);
+      bus_.Publish(channels_.scenario, message, identity_);
     }
   }
 }
@@ -274,7 +250,7 @@ void LearnerNode::SendOrders(int64_t now_us) {
   if (now_us < next_orders_us_) {
     return;
   }
-  next_orders_us_ = now_us + kOrdersPeriodUs;
+  next_orders_us_ = now_us + kNewOrdersPeriodUs;
   std::vector<order_t> due;
   orders_t message{};
   {
@@ -286,7 +262,7 @@ void LearnerNode::SendOrders(int64_t now_us) {
     const size_t end = std::min(due.size(), first + kMaximumOrdersPerMessage);
     message.orders.assign(due.begin() + static_cast<int64_t>(first), due.begin() + static_cast<int64_t>(end));
     message.order_count = static_cast<int32_t>(message.orders.size());
-    Publish(channels_.orders, message);
+    bus_.Publish(channels_.orders, message, identity_);
   }
 }
 
@@ -304,16 +280,16 @@ void LearnerNode::SendWeights(int64_t now_us) {
     if (!chunk) {
       return;
     }
-    Publish(chunk->first == NetworkKind::kCurrent ? channels_.weights_current : channels_.weights_target,
-            chunk->second);
-    next_burst_us_ = now_us + kBurstPeriodUs;
+    bus_.Publish(chunk->first == NetworkKind::kCurrent ? channels_.weights_current : channels_.weights_target,
+                 chunk->second, identity_);
+    next_burst_us_ = now_us + kChunkBurstPeriodUs;
   }
 }
 
 void LearnerNode::SendStatusIfDue(int64_t now_us) {
   if (now_us >= next_status_us_) {
-    next_status_us_ = now_us + kStatusPeriodUs;
-    Publish(channels_.learner_status, Status(now_us));
+    next_status_us_ = now_us + kLearnerStatusPeriodUs;
+    bus_.Publish(channels_.learner_status, Status(now_us), identity_);
     WarnIfNeeded();
   }
 }
@@ -322,7 +298,7 @@ void LearnerNode::WarnIfNeeded() {
   std::string foreign_key;
   {
     const std::lock_guard lock(mutex_);
-    foreign_key = key_mismatch_.News();
+    foreign_key = bus_.KeyMismatchNews();
   }
   if (!foreign_key.empty()) {
     spdlog::warn("{}", foreign_key);
@@ -336,8 +312,8 @@ void LearnerNode::AnnounceEnd() {
   constexpr int kTimes = 3;  // against loss; an actor that misses all of them notices the silence
   for (int i = 0; i < kTimes; ++i) {
     SendRun(true);
-    Publish(channels_.learner_status, Status(clock_.now_us()));
-    bus_->Poll(kPollUs);
+    bus_.Publish(channels_.learner_status, Status(clock_.now_us()), identity_);
+    bus_.Poll(kPollUs);
   }
 }
 

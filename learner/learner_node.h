@@ -20,9 +20,9 @@
 #include "learner/starvation_warning.h"
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
-#include "msgs/key_mismatch.h"
-#include "runs/bus_counters.h"
-#include "runs/optimum_search.h"
+#include "msgs/message_bus.h"
+#include "storage/bus_counters.h"
+#include "storage/optimum_search.h"
 #include "training/ledger.h"
 #include "training/trainer.h"
 
@@ -91,12 +91,10 @@ class LearnerNode {
   void AddEvaluations(learner_status_t& status) const;
 
   template <class Message>
-  void Publish(const std::string& channel, Message message);
-  template <class Message, class Handler>
-  void Subscribe(const std::string& channel, Handler handler);
+  void Subscribe(const std::string& channel, void (LearnerNode::*handle)(const Message&));
 
   const World* world_;
-  Bus* bus_;
+  MessageBus bus_;
   Channels channels_;
   RunIdentity identity_;
   run_t announcement_{};
@@ -109,7 +107,6 @@ class LearnerNode {
   Roster roster_;
   WeightPublisher publisher_;
   BusCounters counters_;  // without those of the roster and the bus: see CountersLocked
-  KeyMismatch key_mismatch_;
   TrainerProgress progress_;
   std::optional<Evaluation> last_evaluation_;
   std::optional<Evaluation> best_evaluation_;
@@ -125,7 +122,6 @@ class LearnerNode {
 
   // The network thread's own.
   StarvationWarning starvation_warning_;
-  std::vector<std::byte> bytes_;
   Episode run_;
   int64_t next_run_us_ = 0;
   int64_t next_scenario_us_ = 0;

@@ -78,7 +78,7 @@ std::string LearnerNode::WaitingForLocked() const {
     return "";
   }
   const std::string awaited = roster_.Awaited(ledger_.order(ledger_.committed()), clock_.now_us());
-  const std::string reason = roster_.live_actors(clock_.now_us()) == 0 ? key_mismatch_.Reason() : "";
+  const std::string reason = roster_.live_actors(clock_.now_us()) == 0 ? bus_.KeyMismatch() : "";
   return reason.empty() ? awaited : fmt::format("{} ({})", awaited, reason);
 }
 
@@ -102,8 +102,9 @@ BusCounters LearnerNode::CountersLocked() const {
   counters.lost += roster_.late_orders();
   counters.weights_chunks_sent += publisher_.sent_chunks();
   counters.weights_chunks_repeated += publisher_.repeated_chunks();
-  counters.rejected_unauthenticated += bus_->refused_messages();
-  counters.rejected += bus_->refused_messages();
+  counters.rejected_malformed += bus_.malformed_messages();
+  counters.rejected_unauthenticated += bus_.unauthenticated_messages();
+  counters.rejected += bus_.malformed_messages() + bus_.unauthenticated_messages();
   return counters;
 }
 

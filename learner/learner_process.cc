@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/signals.h"
+#include "msgs/protocol_times.h"
 
 namespace fresco {
 namespace {
@@ -69,8 +70,7 @@ TrainerOutput LearnerProcess::Output() {
 
 /// Throws UsageError if another learner is on the same channels: the two would share actors and bandwidth.
 void LearnerProcess::RefuseTakenBus() {
-  constexpr int64_t kListenUs = 700'000;  // a running learner announces itself every 500 ms
-  const int64_t until_us = MonotonicMicroseconds() + kListenUs;
+  const int64_t until_us = MonotonicMicroseconds() + kFreeBusUs;
   while (MonotonicMicroseconds() < until_us && node_.foreign_run() == 0 && !StopSignal::Requested()) {
     bus_->Poll(until_us - MonotonicMicroseconds());
   }

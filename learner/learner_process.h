@@ -10,9 +10,9 @@
 
 #include "bus/bus.h"
 #include "learner/learner_node.h"
-#include "runs/optimum_search.h"
-#include "runs/run_folder.h"
-#include "runs/summary.h"
+#include "storage/optimum_search.h"
+#include "storage/run_folder.h"
+#include "storage/summary.h"
 #include "training/trainer.h"
 
 namespace fresco {

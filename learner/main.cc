@@ -12,10 +12,11 @@
 #include "core/output_folder.h"
 #include "core/signals.h"
 #include "core/version.h"
+#include "learner/learner_memory.h"
 #include "learner/learner_process.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
-#include "runs/resumption.h"
+#include "storage/resumption.h"
 
 namespace fresco {
 namespace {
@@ -46,6 +47,7 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
   }
   // Check everything before making the folder, so that wrong use leaves nothing behind.
   const Experiment experiment = Experiment::Load(ExperimentPath(arguments.config), settings);
+  RefuseIfTooLarge({LearnerMemory(experiment)}, ReadAvailableMemory());
   const int64_t run_id = RunIdFrom(arguments);
   RunFolder::CheckNew(arguments.out);
   const std::unique_ptr<Bus> bus = OpenBus(experiment.run().lcm_url(), arguments.bus);
@@ -57,6 +59,7 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
 int Resume(const Arguments& arguments, const Settings& settings) {
   const FolderLock lock(arguments.resume, kResumePatienceUs);
   Resumption resumption = ReadResumption(arguments.resume, settings);
+  RefuseIfTooLarge({LearnerMemory(resumption.experiment)}, ReadAvailableMemory());
   const int64_t run_id = resumption.checkpoint ? resumption.checkpoint->run_id : RunIdFrom(arguments);
   CheckOutputFolder(arguments.resume, "--resume");
   const std::unique_ptr<Bus> bus = OpenBus(resumption.experiment.run().lcm_url(), arguments.bus);

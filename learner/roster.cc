@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "msgs/protocol_times.h"
+
 namespace fresco {
 namespace {
 
-constexpr int64_t kGoneUs = 3'000'000;        // an actor is gone if it sent no status for so long
-constexpr int64_t kSilentUs = 350'000;        // silent: it gets no orders, and its own go to other actors
-constexpr int64_t kAnnounceAgainUs = 60'000;  // an order is announced again after so long without its result
-constexpr int64_t kSoonestLateUs = 150'000;   // no order is late before
-constexpr double kLateFactor = 4;             // an order is late after so many times the usual latency
-constexpr int kLongestPatience = 8;           // each attempt may take longer, up to this factor
+constexpr int64_t kSoonestLateUs = 150'000;  // no order is late before
+constexpr double kLateFactor = 4;            // an order is late after so many times the usual latency
+constexpr int kLongestPatience = 8;          // each attempt may take longer, up to this factor
 constexpr int32_t kLargestCapacity = 4096;
 
 }  // namespace
@@ -44,7 +43,7 @@ bool Roster::MakeRoom(int64_t now_us) {
   const auto longest_gone = std::min_element(
       actors_.begin(), actors_.end(),
       [](const auto& a, const auto& b) { return a.second.last_heard_us < b.second.last_heard_us; });
-  const bool gone = now_us - longest_gone->second.last_heard_us > kGoneUs;
+  const bool gone = now_us - longest_gone->second.last_heard_us > kGoneActorUs;
   if (gone) {
     actors_.erase(longest_gone);
   }
@@ -69,25 +68,25 @@ void Roster::Completed(int64_t index, int64_t actor_id, int64_t now_us) {
 
 int Roster::live_actors(int64_t now_us) const {
   return static_cast<int>(std::count_if(actors_.begin(), actors_.end(), [&](const auto& entry) {
-    return now_us - entry.second.last_heard_us <= kGoneUs;
+    return now_us - entry.second.last_heard_us <= kGoneActorUs;
   }));
 }
 
 bool Roster::IsSilent(int64_t actor_id, int64_t now_us) const {
   const auto found = actors_.find(actor_id);
-  return found == actors_.end() || now_us - found->second.last_heard_us > kSilentUs;
+  return found == actors_.end() || now_us - found->second.last_heard_us > kSilentActorUs;
 }
 
 bool Roster::AllSilent(int64_t now_us) const {
   return std::all_of(actors_.begin(), actors_.end(),
-                     [&](const auto& entry) { return now_us - entry.second.last_heard_us > kSilentUs; });
+                     [&](const auto& entry) { return now_us - entry.second.last_heard_us > kSilentActorUs; });
 }
 
 int64_t Roster::Choose(int64_t except, int64_t now_us) const {
   int64_t best = 0;
   std::pair<double, int64_t> best_load;
   for (const auto& [id, actor] : actors_) {
-    if (id == except || now_us - actor.last_heard_us > kSilentUs) {
+    if (id == except || now_us - actor.last_heard_us > kSilentActorUs) {
       continue;
     }
     const auto open = open_orders_.find(id);
@@ -150,7 +149,7 @@ std::vector<order_t> Roster::DueOrders(const Ledger& ledger, int64_t now_us) {
       }
       Assign(assignment, chosen, now_us);
     }
-    if (assignment.announced_us == 0 || now_us - assignment.announced_us >= kAnnounceAgainUs) {
+    if (assignment.announced_us == 0 || now_us - assignment.announced_us >= kOrderRepeatPeriodUs) {
       assignment.announced_us = now_us;
       due.push_back(ToWire(ledger.order(index), assignment.actor_id, assignment.attempt));
     }

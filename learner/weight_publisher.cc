@@ -5,13 +5,15 @@
 #include <algorithm>
 
 #include "core/crc32c.h"
+#include "msgs/protocol_times.h"
 
 namespace fresco {
-namespace {
 
-constexpr int64_t kAnswerAgainUs = 6'000;  // a chunk that was just sent may still be on its way
-
-}  // namespace
+int64_t WeightPublisher::BytesPerVersion(int64_t parameters) {
+  const auto of_chunk = static_cast<int64_t>(sizeof(decltype(Version::due)::value_type) +
+                                             sizeof(decltype(Version::sent_us)::value_type));
+  return static_cast<int64_t>(sizeof(Version)) + ChunkCount(parameters) * of_chunk;
+}
 
 void WeightPublisher::Offer(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
   Version entry;
@@ -41,7 +43,7 @@ void WeightPublisher::Request(const chunk_range_t& range, int64_t now_us) {
       std::min<int64_t>(int64_t{range.first} + range.count, static_cast<int64_t>(version.due.size()));
   for (int64_t chunk = range.first; chunk < end; ++chunk) {
     const auto i = static_cast<size_t>(chunk);
-    if (version.due[i] == 0 && now_us - version.sent_us[i] >= kAnswerAgainUs) {
+    if (version.due[i] == 0 && now_us - version.sent_us[i] >= kChunkRepeatPeriodUs) {
       version.due[i] = 1;
       ++version.due_count;
     }

@@ -18,6 +18,9 @@ namespace fresco {
 
 class WeightPublisher {
  public:
+  /// The memory of a version without its parameters, bytes.
+  static int64_t BytesPerVersion(int64_t parameters);
+
   /// Adds a version, all of whose chunks are then due.
   void Offer(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
 

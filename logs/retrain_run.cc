@@ -10,8 +10,8 @@
 #include "core/identifier.h"
 #include "core/live_line.h"
 #include "core/signals.h"
-#include "runs/optimum_search.h"
-#include "runs/summary.h"
+#include "storage/optimum_search.h"
+#include "storage/summary.h"
 
 namespace fresco {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "logs/retrain_report.h"
 #include "msgs/experiment.h"
-#include "runs/optimum_search.h"
-#include "runs/run_folder.h"
+#include "storage/optimum_search.h"
+#include "storage/run_folder.h"
 #include "training/trainer.h"
 
 namespace fresco {

@@ -41,7 +41,11 @@ class Message:
             self.take(statement)
         self.counts = [field for field in self.fields if any(field.name in other.dimensions for other in self.fields)]
         self.texts = [field for field in self.fields if field.is_text]
-        self.has_channel = [field.name for field in self.fields[:3]] == IDENTITY
+        self.has_channel = True  # until another message has it as a field
+
+    def use(self, others):
+        """Checks the message, unless one of the others has it as a field."""
+        self.has_channel = not any(field.kind == self.name for other in others for field in other.fields)
         if self.has_channel:
             self.check()
 
@@ -56,6 +60,9 @@ class Message:
             raise ValueError(f"{self.path}: expected a field or a constant, found: {statement}")
 
     def check(self):
+        if [field.name for field in self.fields[:3]] != IDENTITY:
+            raise ValueError(f"{self.path}: expected the fields {', '.join(IDENTITY)} first; a struct without them has "
+                             f"to be a field of another message")
         counts, texts = len(self.counts), len(self.texts)
         fixed = sum(field.is_fixed for field in self.fields)
         in_order = (self.fields[3:3 + counts] == self.counts and all(field.kind == "int32_t" for field in self.counts)
@@ -151,6 +158,8 @@ def main():
     options = parser.parse_args()
     try:
         messages = [Message(path) for path in options.files]
+        for message in messages:
+            message.use(messages)
     except ValueError as error:
         sys.exit(f"describe_messages.py: {error}")
     output = options.cpp or options.java

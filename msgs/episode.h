@@ -27,6 +27,9 @@ struct Episode {
   void Clear();
 };
 
+/// What the longest episode of the world takes of memory, the object itself included.
+int64_t LongestEpisodeBytes(const World& world);
+
 /// Bytes of one mask over the world's actions.
 inline int MaskSize(const World& world) {
   return (world.actions() + 7) / 8;
@@ -38,9 +41,10 @@ void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
 /// Transitions that fit one message for this many sensors; at least 1 for up to kMaximumSensors.
 int TransitionsPerMessage(int sensors);
 
-/// Splits a whole episode into messages in their order and calls `send` with each encoded one.
-void SendEpisode(const World& world, const Episode& episode, RunIdentity identity, int64_t actor_id,
-                 const std::function<void(std::span<const std::byte>)>& send);
+/// Splits a whole episode into messages, each of which fits one frame, and calls `send` with each in their order.
+/// They have no run and no time yet (MessageBus::Publish).
+void SplitEpisode(const World& world, const Episode& episode, int64_t actor_id,
+                  const std::function<void(const transitions_t&)>& send);
 
 /// A message's run of transitions, checked against the world: sizes, actions, cells, AoI, finite
 /// values. Returns false where anything is off.

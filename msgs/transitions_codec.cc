@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "core/clock.h"
+#include "core/memory_need.h"
 #include "msgs/episode.h"
 
 namespace fresco {
@@ -90,6 +90,18 @@ bool ReadTransition(const World& world, const transitions_t& message, size_t i, 
 
 }  // namespace
 
+int64_t LongestEpisodeBytes(const World& world) {
+  const auto values = [](const auto& vector) { return static_cast<int64_t>(sizeof(vector[0])); };
+  const Episode episode;
+  const State state;
+  const int64_t transitions = world.maximum_transitions();
+  const int64_t state_bytes = values(episode.states) + HeapBytes(world.sensors() * values(state.aoi));
+  const int64_t transition_bytes = values(episode.actions) + values(episode.rewards) +
+                                   values(episode.td_errors) + MaskSize(world) * values(episode.next_masks);
+  return static_cast<int64_t>(sizeof(Episode)) + (transitions + 1) * state_bytes +
+         transitions * transition_bytes;
+}
+
 void Episode::Clear() {
   order_index = 0;
   first_transition = 0;
@@ -116,16 +128,13 @@ int TransitionsPerMessage(int sensors) {
   return FittingTransitions(sensors);
 }
 
-void SendEpisode(const World& world, const Episode& episode, RunIdentity identity, int64_t actor_id,
-                 const std::function<void(std::span<const std::byte>)>& send) {
+void SplitEpisode(const World& world, const Episode& episode, int64_t actor_id,
+                  const std::function<void(const transitions_t&)>& send) {
   const int step = TransitionsPerMessage(world.sensors());
-  std::vector<std::byte> bytes;
   for (int first = 0; first < episode.transitions(); first += step) {
     transitions_t message = MessageOf(world, episode, first, std::min(step, episode.transitions() - first));
     message.actor_id = actor_id;
-    Stamp(message, identity, WallMicroseconds());
-    Encode(message, bytes);
-    send(bytes);
+    send(message);
   }
 }
 

@@ -21,6 +21,11 @@ class Adam {
   /// Begins with zero moments for `parameter_count` (>= 1) parameters.
   Adam(int64_t parameter_count, AdamOptions options);
 
+  /// The memory of the moments, bytes.
+  static int64_t BytesFor(int64_t parameter_count) {
+    return 2 * parameter_count * static_cast<int64_t>(sizeof(Vector::Scalar));
+  }
+
   /// Makes one step: parameters -= learning_rate * m_hat / (sqrt(v_hat) + epsilon). Both spans have
   /// parameter_count entries; CHECKs that.
   void Step(std::span<const float> gradient, double learning_rate, std::span<float> parameters);

@@ -60,6 +60,14 @@ MlpWorkspace::MlpWorkspace(const MlpShape& shape, int batch_capacity) {
   }
 }
 
+int64_t MlpWorkspace::BytesFor(const MlpShape& shape, int batch_capacity, bool backward) {
+  int64_t units = 0;
+  for (const int size : shape.layer_sizes()) {
+    units += size;
+  }
+  return units * Padded(batch_capacity) * static_cast<int64_t>(sizeof(Matrix::Scalar)) * (backward ? 2 : 1);
+}
+
 void Mlp::Forward(std::span<const float> parameters, int batch, MlpWorkspace& workspace) const {
   FRESCO_CHECK(static_cast<int64_t>(parameters.size()) == shape_.parameter_count());
   FRESCO_CHECK(batch >= 1 && batch <= workspace.input().cols());

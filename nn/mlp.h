@@ -56,6 +56,9 @@ class MlpWorkspace {
   /// `batch_capacity` (>= 1): the largest batch.
   MlpWorkspace(const MlpShape& shape, int batch_capacity);
 
+  /// The memory of a workspace, bytes. `backward` says whether Backward is used, too.
+  static int64_t BytesFor(const MlpShape& shape, int batch_capacity, bool backward);
+
   /// The observations, which the caller writes before Forward: [inputs x at least batch_capacity].
   Matrix& input() { return activations_.front(); }
 

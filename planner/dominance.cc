@@ -6,7 +6,7 @@
 namespace fresco {
 namespace {
 
-constexpr size_t kLanes = 16;
+constexpr size_t kLabelsAtOnce = 16;
 constexpr double kNever = 1e300;
 
 }  // namespace
@@ -70,11 +70,11 @@ void Undominated::Clear() {
 }
 
 void Undominated::Add(int64_t least, int dear, const int16_t* aoi) {
-  if (size_ % kLanes == 0) {
-    least_.resize(size_ + kLanes, kNever);
-    dear_.resize(size_ + kLanes, 0);
+  if (size_ % kLabelsAtOnce == 0) {
+    least_.resize(size_ + kLabelsAtOnce, kNever);
+    dear_.resize(size_ + kLabelsAtOnce, 0);
     for (std::vector<double>& values : aoi_) {
-      values.resize(size_ + kLanes, 0);
+      values.resize(size_ + kLabelsAtOnce, 0);
     }
   }
   least_[size_] = static_cast<double>(least);
@@ -86,18 +86,18 @@ void Undominated::Add(int64_t least, int dear, const int16_t* aoi) {
 }
 
 bool Undominated::Beat(int64_t least, int dear, const int16_t* aoi, const double* gaps) const {
-  for (size_t begin = 0; begin < size_; begin += kLanes) {
-    std::array<double, kLanes> excess;
-    for (size_t i = 0; i < kLanes; ++i) {
+  for (size_t begin = 0; begin < size_; begin += kLabelsAtOnce) {
+    std::array<double, kLabelsAtOnce> excess;
+    for (size_t i = 0; i < kLabelsAtOnce; ++i) {
       excess[i] = least_[begin + i] - static_cast<double>(least);
     }
     for (size_t n = 0; n < aoi_.size(); ++n) {
       const double* older = aoi_[n].data() + begin;
-      for (size_t i = 0; i < kLanes; ++i) {
+      for (size_t i = 0; i < kLabelsAtOnce; ++i) {
         excess[i] += gaps[n] * std::max(0.0, older[i] - aoi[n]);
       }
     }
-    for (size_t i = 0; energy_binds_ && i < kLanes; ++i) {
+    for (size_t i = 0; energy_binds_ && i < kLabelsAtOnce; ++i) {
       excess[i] += dear_[begin + i] > dear ? kNever : 0;
     }
     if (*std::min_element(excess.begin(), excess.end()) <= 0) {

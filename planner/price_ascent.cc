@@ -7,7 +7,7 @@
 namespace fresco {
 namespace {
 
-constexpr float kNeverServed = 1e30f;
+constexpr float kNoFlight = 1e30f;
 constexpr int kSweepsBetweenChecks = 8;
 constexpr double kLeastGain = 0.01;  // stop if kSweepsBetweenChecks sweeps raise the bound by less
 constexpr int64_t kMostWork = int64_t{1} << 34;
@@ -25,7 +25,7 @@ template <class Value>
 float Least(size_t size, const Value& value) {
   constexpr size_t kLanes = 8;
   float lanes[kLanes];
-  std::fill_n(lanes, kLanes, kNeverServed);
+  std::fill_n(lanes, kLanes, kNoFlight);
   size_t begin = 0;
   for (; begin + kLanes <= size; begin += kLanes) {
     for (size_t i = 0; i < kLanes; ++i) {
@@ -166,7 +166,7 @@ void PriceAscent::SweepForward() {
     const std::vector<int32_t>& cells = slot_cells_->At(slot);
     const size_t next_size =
         slot_cells_->At(slot + 1).size() * sensors_ * static_cast<size_t>(Width(slot + 1));
-    std::fill_n(forward_.get() + Offset(slot + 1, 0), next_size, kNeverServed);
+    std::fill_n(forward_.get() + Offset(slot + 1, 0), next_size, kNoFlight);
     for (size_t number = 0; number < cells.size(); ++number) {
       if (!meter_->Count(static_cast<int64_t>(sensors_) * Width(slot) * kUnitsPerEntry)) {
         return;
@@ -271,7 +271,7 @@ void PriceAscent::StoreBackward(int slot, size_t number, int cell) {
     const float* own_cost = own_cost_.data() + n * widest_;
     const float price = prices_.presence[place * sensors_ + n];
     const bool covered = !last_slot && problem_->Covers(cell, static_cast<int>(n));
-    const float served = covered ? later[0] + prices_.transmission[place] : kNeverServed;
+    const float served = covered ? later[0] + prices_.transmission[place] : kNoFlight;
     float* backward = backward_.get() + Offset(slot, number) + n * width;
     for (size_t i = 0; i < growing; ++i) {
       backward[i] = own_cost[i] + price + Less(served, later[i + 1]);
@@ -295,7 +295,7 @@ void PriceAscent::PushForward(int slot, size_t number, int cell) {
       past_[i] = forward[i] + own_cost[i] + price;
     }
     float* pushed = pushed_.data() + n * next_width;
-    pushed[0] = kNeverServed;
+    pushed[0] = kNoFlight;
     std::copy_n(past_.begin(), growing, pushed + 1);
     if (growing < width) {
       pushed[growing] = std::min(pushed[growing], past_[growing]);  // it grows no further

@@ -1,7 +1,9 @@
 #include "processes/run_checks.h"
 
+#include "actors/actor_memory.h"
 #include "core/installation.h"
 #include "core/output_folder.h"
+#include "learner/learner_memory.h"
 
 namespace fresco {
 
@@ -10,6 +12,9 @@ void CheckRun(const Experiment& experiment) {
   if (experiment.run().actors() > 0) {
     SiblingProgram("fresco-actor");
   }
+  MemoryNeed actors = ActorMemory(experiment, experiment.run().environments_per_actor());
+  actors.processes = experiment.run().actors();
+  RefuseIfTooLarge({LearnerMemory(experiment), actors}, ReadAvailableMemory());
 }
 
 void CheckRunAndBus(const Experiment& experiment, const BusOptions& bus_options) {

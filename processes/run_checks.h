@@ -6,12 +6,13 @@
 
 #include "bus/open_bus.h"
 #include "msgs/experiment.h"
-#include "runs/run_folder.h"
+#include "storage/run_folder.h"
 
 namespace fresco {
 
-/// Throws UsageError if a program of the run is missing or this machine can't do what the experiment asks
-/// for. Further checks of an experiment that are possible before it runs belong here.
+/// Throws UsageError if a program of the run is missing, or if this host has too little memory for the
+/// learner or the local actors, alone or together. Further checks of an experiment that are possible before
+/// it runs belong here.
 void CheckRun(const Experiment& experiment);
 
 /// Does CheckRun, and opens and closes the bus of the experiment. For commands with many runs. Throws as

@@ -34,6 +34,7 @@ TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path fol
   CheckRun(experiment_);
   CheckRunFolder(folder_, use_);
   bus_ = OpenBus(experiment_.run().lcm_url(), {bus_options_.key_file});
+  messages_.emplace(*bus_);
   Listen();
 }
 
@@ -48,14 +49,13 @@ void TrainingRun::Listen() {
   // Statuses come five times a second, and nobody polls while the processes end and the report is written.
   constexpr int kQueueCapacity = 64;
   const Channels channels = ChannelsWithPrefix(experiment_.run().channel_prefix());
-  const auto take = [this](std::span<const std::byte> bytes) {
-    learner_status_t status{};
-    if (Decode(bytes, status) && status.run_id == run_id_) {
-      status_ = std::move(status);
+  const auto take = [this](const learner_status_t& status) {
+    if (status.run_id == run_id_) {
+      status_ = status;
       heard_us_ = MonotonicMicroseconds();
     }
   };
-  bus_->Subscribe(channels.learner_status, take, kQueueCapacity);
+  messages_->Subscribe<learner_status_t>(channels.learner_status, take, kQueueCapacity);
 }
 
 void TrainingRun::Start() {

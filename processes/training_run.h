@@ -12,11 +12,11 @@
 #include "bus/open_bus.h"
 #include "core/child_process.h"
 #include "msgs/experiment.h"
-#include "msgs/wire.h"
+#include "msgs/message_bus.h"
 #include "processes/restart_policy.h"
 #include "processes/run_recorder.h"
-#include "runs/resumption.h"
-#include "runs/run_folder.h"
+#include "storage/resumption.h"
+#include "storage/run_folder.h"
 
 namespace fresco {
 
@@ -100,6 +100,7 @@ class TrainingRun {
   int64_t run_id_;
   std::optional<double> record_split_mb_;  // none: nothing is recorded
   std::unique_ptr<Bus> bus_;
+  std::optional<MessageBus> messages_;  // over bus_
   std::optional<learner_status_t> status_;
   int64_t heard_us_ = 0;                   // time of the learner's last status, or of its start
   std::unique_ptr<RunRecorder> recorder_;  // declared before learner and actors, so that it ends after them

@@ -13,7 +13,8 @@
 #include "report/flight_map.h"
 #include "report/run_report.h"
 #include "report/train_display.h"
-#include "runs/policy.h"
+#include "storage/flown_policy.h"
+#include "storage/policy.h"
 
 namespace fresco {
 namespace {
@@ -176,7 +177,7 @@ class FigureWriter {
       header.push_back(fmt::format("{}_average_aoi", policy.column));
       header.push_back(fmt::format("{}_half_width", policy.column));
     }
-    header.insert(header.end(), {"gap_percent", "gap_half_width", "gap_largest_percent", "gap_deployments"});
+    header.insert(header.end(), {"gap_percent", "gap_half_width", "gap_largest_percent"});
     std::vector<std::vector<CsvCell>> rows;
     for (const Group& group : groups) {
       std::vector<CsvCell> row = {static_cast<int64_t>(group.x), static_cast<int64_t>(group.results.size())};
@@ -204,7 +205,10 @@ class FigureWriter {
         row.push_back(WithSpread(group.Average(policy), 2));
       }
       const std::optional<double> largest = group.LargestGap();
-      row.insert(row.end(), {WithSpread(group.Gap(), 2), largest ? Number(*largest, 2) : kNotKnown});
+      const size_t gaps = group.Gaps().size();
+      const std::string some =
+          gaps < group.results.size() ? fmt::format(" ({} of {} runs)", gaps, group.results.size()) : "";
+      row.insert(row.end(), {WithSpread(group.Gap(), 2) + some, largest ? Number(*largest, 2) : kNotKnown});
       table.rows.push_back(std::move(row));
     }
     return table;

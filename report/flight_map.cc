@@ -10,7 +10,7 @@
 namespace fresco {
 namespace {
 
-constexpr int kWidthPx = 800;
+constexpr int kMapWidthPx = 800;
 constexpr int kColourBarPx = 116;
 
 /// A position on the map, in cells.
@@ -178,7 +178,7 @@ Legend MapLegend() {
        {"stop", kBlackLine, "", kStopPoint},
        {"path", "linecolor rgb '#2A788E'", "linewidth 3", ""},
        {"collection, with a line to its sensor", kBlackLine, "linewidth 0.8", "pointtype 7 pointsize 0.4"}},
-      kWidthPx);
+      kMapWidthPx);
 }
 
 }  // namespace
@@ -188,10 +188,10 @@ Picture DrawFlightMap(const std::string& title, const World& world, const Flight
   const Legend legend = MapLegend();
   const Frame frame{
       .title = title, .x_label = "column", .y_label = "row", .right_label = "slot", .right_px = kColourBarPx};
-  const int map_width_px = kWidthPx - frame.left_px - frame.right_px;
+  const int map_width_px = kMapWidthPx - frame.left_px - frame.right_px;
   const int map_height_px =
       std::clamp(map_width_px * world.scenario().rows / world.scenario().columns, 200, 1000);
-  Picture picture{kWidthPx, frame.top_px + map_height_px + frame.bottom_px + legend.height_px(), ""};
+  Picture picture{kMapWidthPx, frame.top_px + map_height_px + frame.bottom_px + legend.height_px(), ""};
   const std::string collections = CollectionData(world, flight);
   picture.script = FrameScript(frame, picture, legend) + AxesScript(world) + PathData(world, flight) +
                    collections + SensorData(world) + EndData(world) +

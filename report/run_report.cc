@@ -10,8 +10,9 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "report/train_display.h"
-#include "runs/network_file.h"
-#include "runs/policy.h"
+#include "storage/flown_policy.h"
+#include "storage/network_file.h"
+#include "storage/policy.h"
 
 namespace fresco {
 namespace {

@@ -7,8 +7,8 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "processes/training_run.h"
-#include "runs/checkpoint_folder.h"
-#include "runs/summary.h"
+#include "storage/checkpoint_folder.h"
+#include "storage/summary.h"
 #include "worlds/uav/flight.h"
 
 namespace fresco {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "report/study.h"
-#include "runs/resumption.h"
+#include "storage/resumption.h"
 
 namespace fresco {
 

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "runs/optimum_search.h"
+#include "storage/flown_policy.h"
+#include "storage/optimum_search.h"
 #include "worlds/uav/flight.h"
 
 namespace fresco {
@@ -85,10 +86,6 @@ std::vector<TableRow> PolicyRows(const std::string& summary_json) {
                     proved ? "0.00 %" : kNotProved, "yes"});
   }
   return rows;
-}
-
-std::string FoundFlightName(bool proved) {
-  return proved ? "exact optimum" : "best flight of the search";
 }
 
 std::string OptimumNote(const std::string& summary_json) {

@@ -20,9 +20,6 @@ std::string ProgressLine(const learner_status_t& status);
 /// the best flight that the search found, and no row has a gap.
 std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json);
 
-/// Returns the name of the best flight that a search found: "exact optimum" only if that is proved.
-std::string FoundFlightName(bool proved);
-
 /// If there was a search and the optimum is not proved, returns a note: why not, what is proved instead, and
 /// what that means for this run. Otherwise returns "".
 std::string OptimumNote(const std::string& summary_json);

@@ -12,7 +12,7 @@
 namespace fresco {
 namespace {
 
-std::string Quoted(const std::string& argument) {
+std::string QuotedForShell(const std::string& argument) {
   return "'" + argument + "'";
 }
 
@@ -67,19 +67,19 @@ std::string RepeatCommand(const SoakOptions& options, int round) {
   std::string command =
       fmt::format("{} soak --seed {} --first-round {} --rounds 1", ProgramName(), options.seed, round);
   if (!options.config.empty()) {
-    command += " --config " + Quoted(options.config);
+    command += " --config " + QuotedForShell(options.config);
   }
   for (const std::string& setting : options.settings) {
-    command += " --set " + Quoted(setting);
+    command += " --set " + QuotedForShell(setting);
   }
   if (options.actors) {
     command += fmt::format(" --actors {}", *options.actors);
   }
   if (!options.lcm_url.empty()) {
-    command += " --lcm-url " + Quoted(options.lcm_url);
+    command += " --lcm-url " + QuotedForShell(options.lcm_url);
   }
   if (options.key_file) {
-    command += " --key-file " + Quoted(options.key_file->string());
+    command += " --key-file " + QuotedForShell(options.key_file->string());
   }
   if (options.memory_allowance_mib != SoakOptions().memory_allowance_mib) {
     command += fmt::format(" --memory-allowance-mib {}", options.memory_allowance_mib);

@@ -15,14 +15,14 @@ ALLOWED = {
     "bus": {"core"},
     "msgs": {"core", "nn", "worlds", "bus"},
     "training": {"core", "nn", "worlds", "msgs"},
-    "runs": {"core", "nn", "worlds", "planner", "msgs", "training"},
+    "storage": {"core", "nn", "worlds", "planner", "msgs", "training"},
     "actors": {"core", "nn", "worlds", "bus", "msgs", "training"},
-    "learner": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs"},
-    "logs": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs"},
-    "processes": {"core", "bus", "msgs", "runs"},
-    "report": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs", "processes"},
-    "soak": {"core", "bus", "msgs", "runs", "processes", "report"},
-    "tools": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "runs", "actors", "learner", "logs",
+    "learner": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage"},
+    "logs": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage"},
+    "processes": {"core", "bus", "msgs", "storage", "actors", "learner"},
+    "report": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage", "processes"},
+    "soak": {"core", "bus", "msgs", "storage", "processes", "report"},
+    "tools": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage", "actors", "learner", "logs",
               "processes", "report", "soak"},
 }
 # Libraries that only some rooms may see.
@@ -31,7 +31,7 @@ RESERVED = {
     "sodium": {"bus"},
     "Eigen/": {"nn"},
     "google/protobuf/": {"msgs"},
-    "nlohmann/": {"runs", "logs", "processes", "report", "soak", "tools"},
+    "nlohmann/": {"storage", "logs", "processes", "report", "soak", "tools"},
 }
 PURE = {"nn", "worlds", "planner", "training"}  # no input or output, no clock, no random numbers but the counter-based ones
 IMPURE = re.compile(r"#include <(iostream|fstream|cstdio|chrono|random|thread|filesystem|unistd\.h)>")

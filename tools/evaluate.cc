@@ -5,7 +5,7 @@
 
 #include "core/signals.h"
 #include "report/flight_json.h"
-#include "runs/flown_policy.h"
+#include "storage/flown_policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -16,15 +16,15 @@ struct EvaluateOptions {
   std::string format = "text";
 };
 
-void PrintText(const World& world, const Flight& flight, const std::string& policy) {
+void PrintText(const FlownPolicy& flown, const std::string& policy) {
   fmt::print("slot  cell      move   scheduled  AoI\n");
-  for (const FlightSlot& slot : flight.slots) {
+  for (const FlightSlot& slot : flown.flight.slots) {
     const std::string cell = fmt::format("({},{})", slot.state.cell.column, slot.state.cell.row);
     fmt::print("{:>4}  {:<8}  {:<5}  {:>9}  {}\n", slot.state.slot, cell, MoveName(slot.action.move),
                slot.action.schedule == 0 ? "-" : std::to_string(slot.action.schedule),
                fmt::join(slot.state.aoi, " "));
   }
-  fmt::print("\n{}\n", FlightSummary(world, flight, policy));
+  fmt::print("\n{}\n", FlightSummary(flown, policy));
 }
 
 void PrintProof(const Plan& plan) {
@@ -44,7 +44,7 @@ int Evaluate(const EvaluateOptions& options) {
     fmt::print("{}\n", FlightJson(flown.world, flown.flight, options.choice.policy, flown.plan));
     return StopSignal::Requested() ? 1 : 0;
   }
-  PrintText(flown.world, flown.flight, options.choice.policy);
+  PrintText(flown, options.choice.policy);
   if (flown.plan) {
     PrintProof(*flown.plan);
   }

@@ -15,8 +15,10 @@
 #include "core/signals.h"
 #include "msgs/channels.h"
 #include "msgs/flight_messages.h"
+#include "msgs/message_bus.h"
+#include "msgs/protocol_times.h"
 #include "msgs/scenario_codec.h"
-#include "runs/flown_policy.h"
+#include "storage/flown_policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -36,9 +38,10 @@ class FlightShow {
  public:
   FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
       : flown_(flown),
-        messages_(FlightMessages(flown.world, flown.flight, options.choice.policy)),
+        messages_(FlightMessages(flown.world, flown.flight, FlightName(flown, options.choice.policy))),
         field_(ScenarioMessages(flown.world.scenario())),
         bus_(std::move(bus)),
+        message_bus_(*bus_),
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
         period_us_(1e6 / options.slots_per_s) {}
 
@@ -60,9 +63,8 @@ class FlightShow {
   }
 
  private:
-  static constexpr int64_t kLastSlotUs = 1'000'000;  // how long the last slot is shown before the next flight
-                                                     // begins
-  static constexpr int64_t kFieldPeriodUs = 1'000'000;
+  // How long the last slot is shown before the next flight begins.
+  static constexpr int64_t kLastSlotUs = 1'000'000;
   static constexpr int64_t kLongestPollUs = 20'000;
 
   /// Returns false if the program was asked to stop.
@@ -81,7 +83,7 @@ class FlightShow {
   }
 
   void SendField() {
-    next_field_us_ = clock_.now_us() + kFieldPeriodUs;
+    next_field_us_ = clock_.now_us() + kScenarioPeriodUs;
     for (const scenario_t& message : field_) {
       Send(channels_.scenario, message);
     }
@@ -89,12 +91,9 @@ class FlightShow {
 
   template <class Message>
   void Send(const std::string& channel, Message message) {
-    Stamp(message, identity_, WallMicroseconds());
-    Encode(message, bytes_);
-    if (!bus_->Publish(channel, bytes_) && !failure_was_told_) {
+    if (!message_bus_.Publish(channel, std::move(message), identity_) && !failure_was_told_) {
       failure_was_told_ = true;
-      spdlog::warn("{}: LCM could not send a message of {} bytes; is the network up?", channel,
-                   bytes_.size());
+      spdlog::warn("{}: LCM could not send a message; is the network up?", channel);
     }
   }
 
@@ -111,12 +110,12 @@ class FlightShow {
   std::vector<flight_t> messages_;
   std::vector<scenario_t> field_;
   std::unique_ptr<Bus> bus_;
+  MessageBus message_bus_;
   Channels channels_;
   RunIdentity identity_{DrawIdentifier(), flown_.experiment.hash()};
   double period_us_;
   AttentiveClock clock_;
   LiveLine line_{true};
-  std::vector<std::byte> bytes_;
   int64_t next_field_us_ = 0;
   bool failure_was_told_ = false;
 };
@@ -140,7 +139,7 @@ int FlyOverBus(const FlyOptions& options) {
   while (options.loop && whole) {
     whole = show.Show();
   }
-  fmt::print("{}\n", FlightSummary(flown.world, flown.flight, options.choice.policy));
+  fmt::print("{}\n", FlightSummary(flown, options.choice.policy));
   return whole || options.loop ? 0 : 1;
 }
 

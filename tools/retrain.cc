@@ -7,12 +7,13 @@
 
 #include "bus/command_line.h"
 #include "core/error.h"
+#include "learner/learner_memory.h"
 #include "logs/retrain_run.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
 #include "report/run_report.h"
 #include "report/train_display.h"
-#include "runs/new_run_folder.h"
+#include "storage/new_run_folder.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -99,6 +100,7 @@ int Retrain(const RetrainOptions& options) {
   }
   const LoggedRun run = ChooseLoggedRun(FindLoggedRuns(source), options.run);
   const Experiments experiments = ChooseExperiments(options, run);
+  RefuseIfTooLarge({LearnerMemory(experiments.chosen)}, ReadAvailableMemory());
   WarnOfOtherArithmetic(run);
   RetrainRun retrain_run(source, run, experiments.recorded ? *experiments.recorded : experiments.chosen,
                          experiments.chosen, experiments.use, options.strict);

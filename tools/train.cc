@@ -15,8 +15,8 @@
 #include "processes/training_run.h"
 #include "report/run_report.h"
 #include "report/train_display.h"
-#include "runs/new_run_folder.h"
-#include "runs/summary.h"
+#include "storage/new_run_folder.h"
+#include "storage/summary.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

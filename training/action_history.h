@@ -14,6 +14,11 @@ class ActionHistory {
   /// an episode can have.
   ActionHistory(int64_t capacity, int longest_episode);
 
+  /// The memory of an object, bytes.
+  static int64_t BytesFor(int64_t capacity, int longest_episode) {
+    return (capacity + longest_episode) * static_cast<int64_t>(sizeof(Entry));
+  }
+
   /// Adds the action of the next transition; `last` says whether it ends its episode.
   void Add(int16_t action, bool last);
 

@@ -37,6 +37,19 @@ Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options)
       gradient_(shape.parameter_count()),
       choices_(static_cast<size_t>(options.batch_size)) {}
 
+int64_t Dqn::ParameterBytes(const MlpShape& shape) {
+  constexpr int64_t kVectors = 3;  // current, target, gradient
+  return kVectors * shape.parameter_count() * static_cast<int64_t>(sizeof(Vector::Scalar)) +
+         Adam::BytesFor(shape.parameter_count());
+}
+
+int64_t Dqn::BatchBytes(const MlpShape& shape, int batch_size) {
+  const auto of_column = static_cast<int64_t>(sizeof(Vector::Scalar)) * (1 + shape.outputs()) +
+                         static_cast<int64_t>(sizeof(decltype(choices_)::value_type));
+  return MlpWorkspace::BytesFor(shape, batch_size, true) + MlpWorkspace::BytesFor(shape, batch_size, false) +
+         batch_size * of_column;
+}
+
 void Dqn::Restore(const Vector& current, const Vector& target, const Adam::State& adam) {
   FRESCO_CHECK(current.size() == current_.size() && target.size() == target_.size());
   current_ = current;

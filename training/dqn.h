@@ -23,6 +23,11 @@ class Dqn {
   /// Both networks begin as `initial`, which has shape.parameter_count() entries.
   Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options);
 
+  /// The memory of an object after its first update, bytes: for the networks, their gradient and Adam's
+  /// moments, and for a batch.
+  static int64_t ParameterBytes(const MlpShape& shape);
+  static int64_t BatchBytes(const MlpShape& shape, int batch_size);
+
   /// Makes one step of Adam on the loss L = mean (y - Q(s, a))^2 (eq. Loss-Func) of a batch of exactly
   /// options.batch_size transitions. The target y is r if the transition is terminal; otherwise it is r plus
   /// discount times the target network's largest value over the actions allowed in s'. If y is below the

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/memory_need.h"
 
 namespace fresco {
 namespace {
@@ -59,6 +60,15 @@ Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
       capacity_(capacity),
       current_workspace_(mlp_.shape(), capacity),
       target_workspace_(mlp_.shape(), capacity) {}
+
+int64_t Flyer::BytesFor(const World& world, const Experiment& experiment, int capacity, int64_t flights) {
+  constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
+  const MlpShape shape = experiment.network_shape();
+  const int64_t of_flight = static_cast<int64_t>(sizeof(Flight)) + HeapBytes(world.actions()) +
+                            kGrowth * LongestEpisodeBytes(world);
+  return NetworkInput::BytesFor(world, experiment.network_input_options()) +
+         2 * MlpWorkspace::BytesFor(shape, capacity, false) + flights * of_flight;
+}
 
 bool Flyer::IsFlying(int64_t order_index) const {
   return std::any_of(flights_.begin(), flights_.end(),

@@ -28,6 +28,10 @@ class Flyer {
   /// Up to `capacity` environments at a time. `world` must outlive the flyer.
   Flyer(const World& world, const Experiment& experiment, int capacity);
 
+  /// What it takes of memory beside the object itself and the networks, with so many flights at a time at
+  /// most.
+  static int64_t BytesFor(const World& world, const Experiment& experiment, int capacity, int64_t flights);
+
   bool HasRoom() const { return flights_.size() < static_cast<size_t>(capacity_); }
   bool Idle() const { return flights_.empty(); }
   int open_flights() const { return static_cast<int>(flights_.size()); }

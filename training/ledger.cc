@@ -4,9 +4,16 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/memory_need.h"
 #include "training/episode_check.h"
 
 namespace fresco {
+
+int64_t Ledger::BytesFor(const World& world, int64_t orders) {
+  const auto of_entry = static_cast<int64_t>(sizeof(Entry) - sizeof(Episode)) + LongestEpisodeBytes(world) +
+                        HeapBytes(world.maximum_transitions());
+  return orders * of_entry;
+}
 
 void Ledger::Write(const Order& order) {
   if (!std::exchange(begun_, true)) {

@@ -24,6 +24,9 @@ class Ledger {
   /// `world` must outlive the ledger.
   Ledger(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
 
+  /// What so many orders take of memory, with their episodes.
+  static int64_t BytesFor(const World& world, int64_t orders);
+
   /// Enters an order. The first one says where the sequence begins; CHECKs that indices come without gap.
   void Write(const Order& order);
 

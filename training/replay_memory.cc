@@ -25,8 +25,24 @@ ReplayMemory::ReplayMemory(int inputs, int actions, int64_t capacity)
       reward_(static_cast<size_t>(capacity)),
       terminal_(static_cast<size_t>(capacity)),
       least_value_(static_cast<size_t>(capacity)),
-      mask_size_((static_cast<size_t>(actions) + 7) / 8),
+      mask_size_(MaskBytes(actions)),
       masks_(mask_size_ * static_cast<size_t>(capacity)) {}
+
+int64_t MiniBatch::BytesFor(int inputs, int action_count, int batch_size) {
+  const size_t of_transition =
+      (2 * static_cast<size_t>(inputs) + static_cast<size_t>(action_count)) * sizeof(Matrix::Scalar) +
+      sizeof(decltype(actions)::value_type) + sizeof(decltype(rewards)::value_type) +
+      sizeof(decltype(terminal)::value_type) + sizeof(decltype(least_values)::value_type);
+  return batch_size * static_cast<int64_t>(of_transition);
+}
+
+int64_t ReplayMemory::BytesFor(int inputs, int actions, int64_t capacity) {
+  const size_t of_transition =
+      2 * static_cast<size_t>(inputs) * sizeof(Matrix::Scalar) + sizeof(decltype(action_)::value_type) +
+      sizeof(decltype(reward_)::value_type) + sizeof(decltype(terminal_)::value_type) +
+      sizeof(decltype(least_value_)::value_type) + MaskBytes(actions) * sizeof(decltype(masks_)::value_type);
+  return capacity * static_cast<int64_t>(of_transition);
+}
 
 void ReplayMemory::Insert(const Transition& transition) {
   FRESCO_CHECK(static_cast<int64_t>(transition.observation.size()) == observations_.rows());

@@ -16,6 +16,9 @@ namespace fresco {
 struct MiniBatch {
   MiniBatch(int inputs, int actions, int batch_size);
 
+  /// What it takes of memory beside the object itself.
+  static int64_t BytesFor(int inputs, int actions, int batch_size);
+
   int size() const { return static_cast<int>(actions.size()); }
 
   Matrix observations;              ///< [inputs x batch]
@@ -45,6 +48,9 @@ class ReplayMemory {
   /// at most.
   ReplayMemory(int inputs, int actions, int64_t capacity);
 
+  /// The memory of an object when it is full, bytes.
+  static int64_t BytesFor(int inputs, int actions, int64_t capacity);
+
   /// Copies the transition into the ring. If the ring is full, the oldest transition is overwritten. CHECKs
   /// sizes.
   void Insert(const Transition& transition);
@@ -61,6 +67,7 @@ class ReplayMemory {
 
  private:
   void Copy(int64_t place, int column, MiniBatch& batch) const;
+  static size_t MaskBytes(int actions) { return (static_cast<size_t>(actions) + 7) / 8; }
 
   int actions_;
   int64_t capacity_;

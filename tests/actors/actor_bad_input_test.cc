@@ -51,6 +51,17 @@ INSTANTIATE_TEST_SUITE_P(
                       Lie{"NoRunId", [](run_t& part) { part.run_id = 0; }}),
     [](const auto& instance) { return instance.param.name; });
 
+TEST_F(ActorBadInput, OfARunForWhichThereIsNoMemoryLeavesItFreeForAnother) {
+  available_memory_.process = {1'000'000, "what this test allows"};
+  learner_.AnnounceRun();
+  Step();
+  EXPECT_FALSE(actor_.has_run());
+  available_memory_ = {};
+  LearnerDouble other(*bus_, channels_, experiment_, kRunId + 1);
+  other.AnnounceRun();
+  EXPECT_EQ(NextStatus().run_id, kRunId + 1);
+}
+
 TEST_F(ActorBadInput, IsCountedAndHarmlessWhereBytesAreMalformed) {
   BeginRun();
   RandomStream stream(1, RandomPurpose::kTest, 0, 0);

@@ -29,6 +29,7 @@ ActorOptions ActorTest::OptionsOfTheActor() {
 ActorOptions ActorTest::WithClock(ActorOptions options) const {
   options.clock_us = [this] { return now_us_; };
   options.wall_clock_us = [this] { return wall_us_; };
+  options.available_memory = [this] { return available_memory_; };
   return options;
 }
 

@@ -51,7 +51,8 @@ class ActorTest : public ::testing::Test {
   std::unique_ptr<Bus> bus_ = OpenLcmBus("memq://");
   LearnerDouble learner_{*bus_, channels_, experiment_, kRunId};
   int64_t now_us_ = 0;
-  int64_t wall_us_ = 0;  // stands still
+  int64_t wall_us_ = 0;               // stands still
+  AvailableMemory available_memory_;  // no limit
   Actor actor_;
 };
 

@@ -1,7 +1,7 @@
 // Recorded messages that somebody sends again: of the same run while it goes on, and of an earlier one.
 #include <limits>
 
-#include "msgs/current_run.h"
+#include "msgs/protocol_times.h"
 #include "tests/actors/actor_fixture.h"
 
 namespace fresco {

@@ -9,12 +9,7 @@
 namespace fresco {
 namespace {
 
-using Arrival = NetworkStore::Arrival;
-
-constexpr int64_t kParameters = 3000;
-constexpr int kChunks = 10;
 constexpr int kLarge = 100 * kValuesPerChunk;  // values in a hundred chunks
-constexpr NetworkVersion kCurrent7{NetworkKind::kCurrent, 7};
 constexpr NetworkVersion kTarget2{NetworkKind::kTarget, 2};
 
 TEST(NetworkStore, RejectsSizesAndOffsetsThatAreNotThoseOfAChunk) {
@@ -43,7 +38,7 @@ TEST(NetworkStore, RejectsSizesAndOffsetsThatAreNotThoseOfAChunk) {
     EXPECT_EQ(store.Add(NetworkKind::kCurrent, chunk, 0), Arrival::kRejected) << i;
   }
   store.MissingRanges(0);
-  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs)), (Ranges{{0, 7, 0, kChunks}}));
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietVersionUs)), (Ranges{{0, 7, 0, kChunks}}));
 }
 
 TEST(NetworkStore, ReportsExactlyTheGapsAndOnlyAfterQuietTime) {
@@ -53,12 +48,12 @@ TEST(NetworkStore, ReportsExactlyTheGapsAndOnlyAfterQuietTime) {
   for (const size_t chunk : {1u, 2u, 5u, 8u}) {
     store.Add(NetworkKind::kCurrent, chunks[chunk], 1000);
   }
-  EXPECT_TRUE(store.MissingRanges(1000 + kQuietUs - 1).empty());
-  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietUs)),
+  EXPECT_TRUE(store.MissingRanges(1000 + kQuietVersionUs - 1).empty());
+  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietVersionUs)),
             (Ranges{{0, 7, 0, 1}, {0, 7, 3, 2}, {0, 7, 6, 2}, {0, 7, 9, 1}}));
   store.Add(NetworkKind::kCurrent, chunks[4], 9000);
-  EXPECT_TRUE(store.MissingRanges(9000 + kQuietUs - 1).empty());  // they are still coming
-  EXPECT_EQ(Plain(store.MissingRanges(9000 + kQuietUs)),
+  EXPECT_TRUE(store.MissingRanges(9000 + kQuietVersionUs - 1).empty());  // they are still coming
+  EXPECT_EQ(Plain(store.MissingRanges(9000 + kQuietVersionUs)),
             (Ranges{{0, 7, 0, 1}, {0, 7, 3, 1}, {0, 7, 6, 2}, {0, 7, 9, 1}}));
   Complete(store, kCurrent7, kParameters, 9000);
   EXPECT_TRUE(store.MissingRanges(100'000).empty());
@@ -69,8 +64,8 @@ TEST(NetworkStore, AsksForAllOfAVersionOfWhichNothingCameSinceItWasWanted) {
   EXPECT_TRUE(store.MissingRanges(0).empty());
   store.SetWanted({kCurrent7, kTarget2});
   EXPECT_TRUE(store.MissingRanges(10'000).empty());
-  EXPECT_TRUE(store.MissingRanges(10'000 + kQuietUs - 1).empty());
-  EXPECT_EQ(Plain(store.MissingRanges(10'000 + kQuietUs)), (Ranges{{0, 7, 0, kChunks}, {1, 2, 0, kChunks}}));
+  EXPECT_TRUE(store.MissingRanges(10'000 + kQuietVersionUs - 1).empty());
+  EXPECT_EQ(Plain(store.MissingRanges(10'000 + kQuietVersionUs)), (Ranges{{0, 7, 0, kChunks}, {1, 2, 0, kChunks}}));
   store.SetWanted({kTarget2});
   EXPECT_EQ(Plain(store.MissingRanges(20'000)), (Ranges{{1, 2, 0, kChunks}}));
   store.SetWanted({kCurrent7});  // wanted again: quiet time begins again
@@ -80,9 +75,9 @@ TEST(NetworkStore, AsksForAllOfAVersionOfWhichNothingCameSinceItWasWanted) {
 TEST(NetworkStore, AsksForTheRestOfAVersionThatIsOnItsWayBeforeAnOrderNamesIt) {
   NetworkStore store(kParameters);
   store.Add(NetworkKind::kCurrent, ChunksOf(7, kParameters)[0], 1000);
-  EXPECT_TRUE(store.MissingRanges(1000 + kQuietUs - 1).empty());
+  EXPECT_TRUE(store.MissingRanges(1000 + kQuietVersionUs - 1).empty());
   const Ranges rest = {{0, 7, 1, kChunks - 1}};
-  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietUs)), rest);
+  EXPECT_EQ(Plain(store.MissingRanges(1000 + kQuietVersionUs)), rest);
   EXPECT_EQ(Plain(store.MissingRanges(1000 + 499'999)), rest);
   EXPECT_TRUE(store.MissingRanges(1000 + 500'000).empty());  // the learner has dropped it
   store.SetWanted({kCurrent7});
@@ -97,7 +92,7 @@ TEST(NetworkStore, AsksForNoVersionThatIsOlderThanTheOnesWantedOfLate) {
     store.Add(NetworkKind::kCurrent, ChunksOf(version, kParameters)[0], 0);
   }
   store.Add(NetworkKind::kTarget, ChunksOf(2, kParameters)[0], 0);  // of targets none was wanted
-  EXPECT_EQ(Plain(store.MissingRanges(kQuietUs)),
+  EXPECT_EQ(Plain(store.MissingRanges(kQuietVersionUs)),
             (Ranges{{0, 7, 1, kChunks - 1}, {0, 8, 1, kChunks - 1}, {1, 2, 1, kChunks - 1}}));
 }
 
@@ -109,7 +104,7 @@ TEST(NetworkStore, AsksFirstForWhatOrdersName) {
   }
   store.SetWanted({kTarget2});
   store.MissingRanges(0);
-  const Ranges ranges = Plain(store.MissingRanges(kQuietUs));
+  const Ranges ranges = Plain(store.MissingRanges(kQuietVersionUs));
   EXPECT_EQ(ranges.size(), static_cast<size_t>(kMaximumMissingRanges));
   EXPECT_EQ(ranges.front(), std::tuple(1, 2, 0, kLarge / kValuesPerChunk));
 }
@@ -155,7 +150,7 @@ TEST(NetworkStore, ReportsAtMostAsManyRangesAsAMessageTakes) {
     store.Add(NetworkKind::kCurrent, chunks[chunk], 0);
   }
   store.MissingRanges(0);
-  const Ranges ranges = Plain(store.MissingRanges(kQuietUs));
+  const Ranges ranges = Plain(store.MissingRanges(kQuietVersionUs));
   ASSERT_EQ(ranges.size(), static_cast<size_t>(kMaximumMissingRanges));
   for (int i = 0; i < kMaximumMissingRanges; ++i) {
     EXPECT_EQ(ranges[static_cast<size_t>(i)], std::tuple(0, 7, 2 * i + 1, 1));

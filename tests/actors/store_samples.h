@@ -10,6 +10,12 @@
 
 namespace fresco {
 
+using Arrival = NetworkStore::Arrival;
+
+inline constexpr int64_t kParameters = 3000;  // nine chunks of 308 values, one of 228
+inline constexpr int kChunks = 10;
+inline constexpr NetworkVersion kCurrent7{NetworkKind::kCurrent, 7};
+
 inline std::vector<float> ValuesOf(int32_t version, int64_t count) {
   RandomStream stream(2026, RandomPurpose::kTest, 2, static_cast<uint32_t>(version));
   return RandomFloats(stream, static_cast<size_t>(count), 1);

@@ -2,7 +2,7 @@
 #include "core/check.h"
 #include "core/crc32c.h"
 #include "msgs/proto/checkpoint.pb.h"
-#include "runs/checkpoint_file.h"
+#include "storage/checkpoint_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {

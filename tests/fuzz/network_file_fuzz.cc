@@ -2,7 +2,7 @@
 #include "core/check.h"
 #include "core/crc32c.h"
 #include "msgs/proto/network.pb.h"
-#include "runs/network_file.h"
+#include "storage/network_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {

@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "logs/event_log_writer.h"
 #include "msgs/episode.h"
-#include "runs/checkpoint_file.h"
-#include "runs/network_file.h"
+#include "storage/checkpoint_file.h"
+#include "storage/network_file.h"
 #include "tests/msgs/message_samples.h"
 #include "worlds/uav/environment.h"
 
@@ -98,8 +98,10 @@ void WriteTransitions(const std::filesystem::path& directory) {
   const World world(Experiment::Parse("", "the defaults").scenario());
   for (int64_t order = 0; order < 4; ++order) {
     Bytes sample;
-    SendEpisode(world, Fly(world, order, {order % 2 == 0, false}), {1, 2}, 3, [&](auto bytes) {
-      const auto encoding = bytes.first(bytes.size() - kTrailerBytes);
+    SplitEpisode(world, Fly(world, order, {order % 2 == 0, false}), 3, [&](transitions_t message) {
+      Stamp(message, {1, 2}, 1);
+      const Bytes bytes = Encoded(message);
+      const auto encoding = std::span(bytes).first(bytes.size() - kTrailerBytes);
       sample.push_back(static_cast<std::byte>(encoding.size() >> 8));
       sample.push_back(static_cast<std::byte>(encoding.size()));
       sample.insert(sample.end(), encoding.begin(), encoding.end());

@@ -45,6 +45,17 @@ NO_FOLDER = (["--out", "file/run"], ["--out", "file is not a folder"])
 NO_PROGRAMS = {"PATH": "/nowhere"}
 
 
+# Fields whose size no host has the memory for, and what they are for.
+TOO_LARGE = [
+    (["agent.replay_capacity=100000000", "scenario.random_sensors.count=250", "agent.sensor_geometry=true"],
+     ["agent.replay_capacity: the replay memory needs 621.4 GB"]),  # 6,214 bytes a transition
+    (["run.optimum_memory_mb=1000000"], ["run.optimum_memory_mb: the search for the exact optimum needs 1000.0 GB"]),
+    (["schedule.window=4096", "schedule.updates_per_version=1", "schedule.inserts_per_update=1",
+      "agent.hidden_layers=2000,2000"], ["schedule.window: the versions of the networks"]),
+    (["agent.hidden_layers=2000,2000", "run.actors=1024"], ["agent.hidden_layers: the networks that it holds"]),
+]
+
+
 class BadInput(FrescoTest):
     """Every program is started in a folder of its own, in which nothing may appear or change."""
 
@@ -172,6 +183,20 @@ class BadInput(FrescoTest):
                               ("runs", ["runs has no best.network"]), ("file", ["file: not a network file"])]:
             self.refuse([kinds, *words], "evaluate", "--policy", policy)
             self.refuse([kinds, *words], "fly", "--policy", policy)
+
+    def test_of_a_size_that_no_memory_has_is_refused_before_anything_is_written_or_started(self):
+        for settings, words in TOO_LARGE:
+            config = self.folder / "field.textproto"
+            config.write_text("")
+            arguments = [part for setting in settings for part in ("--set", setting)]
+            words = words + ["GB of memory are needed and", "are available (", "Lower "]
+            self.refuse(words, "--config", config, *arguments)
+            self.assertFalse((self.folder / "out").exists())
+            if "run.actors=1024" not in settings:  # the learner by itself takes no actors with it
+                output, errors = self.run_fresco("--config", config, "--out", self.folder / "out", *arguments,
+                                                 program="fresco-learner", expect=2)
+                self.assertIn(words[0], errors + output)
+                self.assertFalse((self.folder / "out").exists())
 
     def test_never_overwrites_another_runs_results(self):
         (self.here / "out").mkdir()

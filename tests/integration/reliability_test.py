@@ -18,7 +18,7 @@ SETTINGS = ("--config", CI_CONFIG, "--lcm-url", url(PORT), "--set", "schedule.ep
             "--set", "run.optimum_limit_s=0", "--set", "run.checkpoint_interval_s=0.2")
 FLOOD_PER_S = 25_000
 REPLAYED_PER_S = 5_000
-RECORDED_US = 10_000_000  # kClockToleranceUs in msgs/current_run.h
+RECORDED_US = 10_000_000  # kClockToleranceUs in msgs/protocol_times.h
 OFTEN, ONCE = "every version evaluated", "the last version alone evaluated"
 table_file = None
 

@@ -2,6 +2,7 @@
 
 #include "bus/authenticated_bus.h"
 #include "msgs/episode.h"
+#include "msgs/message_bus.h"
 #include "msgs/order.h"
 #include "tests/training/literal_run.h"
 
@@ -25,9 +26,10 @@ void Forger::Answer(const orders_t& message) {
     Order order;
     if (FromWire(wire, order)) {
       order.epsilon = 1;
-      SendEpisode(*world_, FlyOrder(*world_, *experiment_, order, zero, zero), IdentityOf(message),
-                  wire.actor_id,
-                  [this](std::span<const std::byte> bytes) { bus_->Publish(channels_.transitions, bytes); });
+      SplitEpisode(*world_, FlyOrder(*world_, *experiment_, order, zero, zero), wire.actor_id,
+                   [&](const transitions_t& run) {
+                     MessageBus(*bus_).Publish(channels_.transitions, run, IdentityOf(message));
+                   });
     }
   }
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/clock.h"
-#include "msgs/current_run.h"
+#include "msgs/protocol_times.h"
 #include "tests/training/literal_run.h"
 
 namespace fresco {

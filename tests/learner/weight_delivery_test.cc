@@ -109,7 +109,7 @@ class Simulation {
 
   void Ask() {
     for (size_t store = 0; store < stores_.size(); ++store) {
-      if ((now_us_ + static_cast<int64_t>(store) * 1300) % kRequestPeriodUs != 0) {
+      if ((now_us_ + static_cast<int64_t>(store) * 1300) % kChunkRequestPeriodUs != 0) {
         continue;
       }
       auto missing = stores_[store].MissingRanges(now_us_);

@@ -70,9 +70,8 @@ std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity) {
     orders.order_count = 1;
     orders.orders = {ToWire(run.orders[i], 5, 0)};
     events.Add("FRESCO_ORDERS", orders);
-    SendEpisode(run.world, run.episodes[i], identity, 5, [&](std::span<const std::byte> bytes) {
-      events.AddBytes("FRESCO_TRANSITIONS", {bytes.begin(), bytes.end()});
-    });
+    SplitEpisode(run.world, run.episodes[i], 5,
+                 [&](const transitions_t& message) { events.Add("FRESCO_TRANSITIONS", message); });
   }
   return std::move(events).events();
 }

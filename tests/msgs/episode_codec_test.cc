@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "msgs/episode.h"
+#include "tests/msgs/message_samples.h"
 
 namespace fresco {
 namespace {
@@ -47,7 +48,8 @@ Episode RandomEpisode(const World& world, RandomStream& stream) {
 
 std::vector<transitions_t> Messages(const World& world, const Episode& episode) {
   std::vector<transitions_t> messages;
-  SendEpisode(world, episode, {3, 4}, 5, [&](std::span<const std::byte> bytes) {
+  SplitEpisode(world, episode, 5, [&](const transitions_t& message) {
+    const std::vector<std::byte> bytes = Encoded(message);
     EXPECT_LE(bytes.size(), kMaximumMessageBytes);
     EXPECT_TRUE(Decode(bytes, messages.emplace_back()));
   });
@@ -62,7 +64,6 @@ TEST_P(EpisodeCodec, JoinsToTheSameEpisode) {
   const Episode episode = RandomEpisode(world, stream);
   int next = 0;
   for (const transitions_t& message : Messages(world, episode)) {
-    EXPECT_EQ(message.run_id, 3);
     EXPECT_EQ(message.actor_id, 5);
     Episode run;
     ASSERT_TRUE(ToEpisodeRun(world, message, run));

@@ -16,7 +16,7 @@ namespace {
 TEST(ReadProcess, CountsDescriptorsAndMemory) {
   const auto before = ReadProcess(getpid());
   ASSERT_TRUE(before);
-  EXPECT_EQ(before->program, "tools_test");
+  EXPECT_EQ(before->program, "soak_test");
   EXPECT_EQ(before->parent, getppid());
   const int descriptors[] = {open("/dev/null", O_RDONLY), open("/dev/null", O_RDONLY)};
   const std::vector<char> memory(64 << 20, 'x');

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "runs/checkpoint_file.h"
+#include "storage/checkpoint_file.h"
 #include "tests/training/recorded_run.h"
 
 namespace fresco {

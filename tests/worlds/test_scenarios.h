@@ -8,7 +8,7 @@
 
 namespace fresco {
 
-/// Table I with sensors over cells (8,7), (1,4), (18,19): the instance of docs/results.md.
+/// Table I with sensors over cells (8,7), (1,4), (18,19): the instance of docs/results/README.md.
 Scenario TableOneScenario();
 
 /// The rotor usual in the literature; flying at 25 m/s costs it more than hovering.

@@ -27,6 +27,7 @@ NetworkInput::NetworkInput(const World& world, NetworkInputOptions options)
     return;
   }
   const Scenario& scenario = world.scenario();
+  geometry_.reserve(static_cast<size_t>(BytesFor(world, options)) / sizeof(geometry_[0]));
   for (int row = 0; row < scenario.rows; ++row) {
     for (int column = 0; column < scenario.columns; ++column) {
       for (int sensor = 0; sensor < world.sensors(); ++sensor) {
@@ -37,6 +38,12 @@ NetworkInput::NetworkInput(const World& world, NetworkInputOptions options)
       }
     }
   }
+}
+
+int64_t NetworkInput::BytesFor(const World& world, NetworkInputOptions options) {
+  const int64_t cells = int64_t{world.scenario().columns} * world.scenario().rows;
+  const int64_t entries = options.sensor_geometry ? cells * 2 * world.sensors() : 0;
+  return entries * static_cast<int64_t>(sizeof(decltype(geometry_)::value_type));
 }
 
 int NetworkInput::Size(int sensors, NetworkInputOptions options) {

@@ -2,6 +2,7 @@
 // share one.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,8 @@ class NetworkInput {
   /// The number of entries for so many sensors.
   static int Size(int sensors, NetworkInputOptions options);
   int size() const { return Size(world_->sensors(), options_); }
+  /// What it takes of memory beside the object itself.
+  static int64_t BytesFor(const World& world, NetworkInputOptions options);
 
   /// Writes the entries to `input`. CHECKs that it has size() entries. Uses only what messages carry of a
   /// state, so actor and learner get the same bits.

@@ -101,6 +101,13 @@ void World::DeriveCoverage() {
   }
 }
 
+int64_t World::bytes() const {
+  const auto size = [](const auto& vector) {
+    return static_cast<int64_t>(vector.size() * sizeof(vector[0]));
+  };
+  return size(scenario_.sensors) + size(theta_) + size(coverage_);
+}
+
 bool World::OnGrid(Cell cell) const {
   return cell.column >= 0 && cell.column < scenario_.columns && cell.row >= 0 && cell.row < scenario_.rows;
 }

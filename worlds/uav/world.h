@@ -44,6 +44,9 @@ class World {
   int actions() const { return kMoves * (sensors() + 1); }                    ///< 5 (N + 1)
   int maximum_transitions() const { return scenario_.slots - 1; }             ///< of an episode, T - 1
 
+  /// The memory of the coverage table and the other derived values, bytes.
+  int64_t bytes() const;
+
   /// The weights theta_n [N], which sum to one.
   std::span<const double> theta() const { return theta_; }
 

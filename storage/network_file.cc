@@ -1,0 +1,78 @@
+#include "storage/network_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "core/atomic_file.h"
+#include "core/crc32c.h"
+#include "core/error.h"
+#include "core/version.h"
+#include "msgs/proto/network.pb.h"
+
+namespace fresco {
+namespace {
+
+constexpr char kNetworkFormat[] = "fresco-network-1";
+
+Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const std::string& origin) {
+  const size_t expected = static_cast<size_t>(shape.parameter_count()) * sizeof(float);
+  Expect(std::equal(file.layer_sizes().begin(), file.layer_sizes().end(), shape.layer_sizes().begin(),
+                    shape.layer_sizes().end()),
+         origin, "its layer sizes contradict its configuration");
+  Expect(file.parameters().size() == expected, origin,
+         fmt::format("expected {} bytes of parameters, found {}", expected, file.parameters().size()));
+  Expect(Crc32c(std::as_bytes(std::span(file.parameters()))) == file.crc32c(), origin,
+         "the CRC of its parameters is wrong: the file is damaged");
+  Vector parameters(shape.parameter_count());
+  std::memcpy(parameters.data(), file.parameters().data(), expected);
+  return parameters;
+}
+
+}  // namespace
+
+std::string SerializeNetworkFile(const StoredNetwork& network) {
+  proto::NetworkFile file;
+  file.set_format(kNetworkFormat);
+  const MlpShape shape = network.experiment.network_shape();
+  for (const int size : shape.layer_sizes()) {
+    file.add_layer_sizes(size);
+  }
+  const std::span<const float> values(network.parameters.data(),
+                                      static_cast<size_t>(network.parameters.size()));
+  file.set_parameters(values.data(), values.size_bytes());
+  file.set_crc32c(Crc32c(values));
+  file.set_version(network.version);
+  file.set_updates(network.updates);
+  file.set_config_hash(network.experiment.hash());
+  file.set_config_text(network.experiment.Text());
+  file.set_software_version(kSoftwareVersion);
+  return file.SerializeAsString();
+}
+
+void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network) {
+  WriteFileAtomically(path, SerializeNetworkFile(network));
+}
+
+StoredNetwork ParseNetworkFile(std::string_view content, const std::string& origin) {
+  proto::NetworkFile file;
+  Expect(
+      content.size() <= std::numeric_limits<int>::max() &&
+          file.ParseFromArray(content.data(), static_cast<int>(content.size())) && file.has_format(),
+      origin,
+      "not a network file of Fresco, or cut short; expected best.network or final.network of a run's folder");
+  Expect(file.format() == kNetworkFormat, origin,
+         fmt::format("expected format {}, found {}", kNetworkFormat, file.format()));
+  Experiment experiment = Experiment::Parse(file.config_text(), origin + " (its configuration)");
+  const MlpShape shape = experiment.network_shape();
+  Vector parameters = ParametersOf(file, shape, origin);
+  return {std::move(experiment), file.version(), file.updates(), std::move(parameters)};
+}
+
+StoredNetwork ReadNetworkFile(const std::filesystem::path& path) {
+  return ParseNetworkFile(ReadFile(path), path.string());
+}
+
+}  // namespace fresco

@@ -1,0 +1,131 @@
+#include "storage/optimum_search.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+namespace fresco {
+
+const char* SearchEndName(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::kOff:
+      return "off";
+    case SearchEnd::kProved:
+      return "proved";
+    case SearchEnd::kLimit:
+      return "limit";
+    case SearchEnd::kStopped:
+      return "stopped";
+    case SearchEnd::kFailed:
+      break;
+  }
+  return "failed";
+}
+
+OptimumSearch::OptimumSearch(const World& world, Limits limits, ProcessorClock processor_clock)
+    : world_(&world),
+      limits_(limits),
+      processor_clock_(std::move(processor_clock)),
+      full_priority_(getpriority(PRIO_PROCESS, 0)),
+      ended_(limits.processor_seconds <= 0) {
+  if (!ended_) {
+    thread_ = std::thread([this] { Search(); });
+  }
+}
+
+OptimumSearch::~OptimumSearch() {
+  Stop();
+}
+
+/// Lowers the priority of the calling thread, so that the training and the network threads go first.
+void OptimumSearch::TakeLowPriority() {
+  constexpr int kLeastUrgent = 19;
+  const std::lock_guard lock(mutex_);
+  thread_id_ = static_cast<int>(syscall(SYS_gettid));
+  if (!hurried_) {
+    setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id_), kLeastUrgent);
+  }
+}
+
+void OptimumSearch::TakeFullPriority() {
+  const std::lock_guard lock(mutex_);
+  hurried_ = true;
+  if (thread_id_ != 0 && !ended_) {  // after a thread has ended, another one may have its id
+    setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id_), full_priority_);
+  }
+}
+
+void OptimumSearch::Search() {
+  TakeLowPriority();
+  std::shared_ptr<const Plan> plan;
+  try {
+    PlannerOptions options;
+    options.memory_bytes = limits_.memory_bytes;
+    options.keep_going = [this](const PlannerProgress& progress) { return KeepGoing(progress); };
+    plan = std::make_shared<const Plan>(PlanOptimally(*world_, options));
+  } catch (const std::exception& error) {  // e.g. out of memory; the training continues without the optimum
+    spdlog::error("the search for the exact optimum failed: {}", error.what());
+  }
+  const std::lock_guard lock(mutex_);
+  if (plan != nullptr) {
+    bound_ = {plan->lower_bound_average_aoi, plan->optimal};
+  }
+  result_ = {plan, EndOf(plan.get())};
+  ended_ = true;
+  ended_changed_.notify_all();
+}
+
+SearchEnd OptimumSearch::EndOf(const Plan* plan) const {
+  if (plan == nullptr) {
+    return SearchEnd::kFailed;
+  }
+  if (plan->optimal) {
+    return SearchEnd::kProved;
+  }
+  return stop_ && processor_seconds_ < limits_.processor_seconds ? SearchEnd::kStopped : SearchEnd::kLimit;
+}
+
+bool OptimumSearch::KeepGoing(const PlannerProgress& progress) {
+  const double processor_seconds = static_cast<double>(processor_clock_()) * 1e-6;
+  const std::lock_guard lock(mutex_);
+  processor_seconds_ = processor_seconds;
+  if (progress.lower_bound_average > 0) {
+    bound_ = {progress.lower_bound_average, false};
+  }
+  return !stop_ && processor_seconds < limits_.processor_seconds;
+}
+
+std::optional<OptimumBound> OptimumSearch::bound() const {
+  const std::lock_guard lock(mutex_);
+  return bound_;
+}
+
+double OptimumSearch::processor_seconds_left() const {
+  const std::lock_guard lock(mutex_);
+  return ended_ ? 0 : std::max(0.0, limits_.processor_seconds - processor_seconds_);
+}
+
+bool OptimumSearch::WaitForEnd(int64_t timeout_us) {
+  std::unique_lock lock(mutex_);
+  return ended_changed_.wait_for(lock, std::chrono::microseconds(timeout_us), [this] { return ended_; });
+}
+
+void OptimumSearch::Stop() {
+  stop_ = true;
+  TakeFullPriority();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+OptimumResult OptimumSearch::result() const {
+  const std::lock_guard lock(mutex_);
+  return result_;
+}
+
+}  // namespace fresco

@@ -1,0 +1,125 @@
+#include "storage/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/folder_lock.h"
+#include "core/output_folder.h"
+#include "storage/network_file.h"
+
+namespace fresco {
+
+void RunFolder::CheckNew(const std::filesystem::path& directory) {
+  CheckOutputFolder(directory);
+  if (std::filesystem::exists(directory)) {
+    const FolderLock lock(directory);
+    RefuseResults(directory);
+  }
+}
+
+void RunFolder::Make(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    throw UsageError(fmt::format("--out: can't make the folder {}: {}", directory.string(), error.message()));
+  }
+}
+
+RunFolder::RunFolder(std::filesystem::path directory, const Experiment& experiment, Use use)
+    : directory_(std::move(directory)),
+      experiment_(experiment),
+      checkpoints_(directory_),
+      metrics_(
+          "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,total_aoi,"
+          "average_aoi,sum_aoi\n") {
+  Make(directory_);
+  if (use == Use::kNewRun) {
+    RefuseResults(directory_);
+  } else {
+    ClearLeftovers();
+  }
+  WriteFileAtomically(directory_ / "config.textproto", experiment.Text());
+}
+
+void RunFolder::RefuseResults(const std::filesystem::path& directory) {
+  if (std::filesystem::exists(directory / "summary.json")) {
+    throw UsageError(
+        fmt::format("--out: {} holds another run's results; name a new folder", directory.string()));
+  }
+  if (!CheckpointFolder(directory).Latest().empty()) {
+    throw UsageError(
+        fmt::format("--out: {} holds a run that is not complete; continue it (--resume {}) or "
+                    "name a new folder",
+                    directory.string(), directory.string()));
+  }
+}
+
+/// Deletes the summary of an interrupted run, and temporary files of a process that was killed.
+void RunFolder::ClearLeftovers() const {
+  std::filesystem::remove(directory_ / "summary.json");
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory_)) {
+    if (IsTemporaryOfAtomicFile(entry.path())) {
+      std::filesystem::remove(entry.path());
+    }
+  }
+}
+
+void RunFolder::AddMetrics(const Evaluation& evaluation, const TrainerProgress& progress, double wall_s) {
+  metrics_ +=
+      fmt::format("{:.3f},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6f},{:.6f}\n", wall_s,
+                  evaluation.episodes, progress.transitions, evaluation.updates, evaluation.version,
+                  progress.epsilon, progress.learning_rate, progress.loss, evaluation.arrived ? 1 : 0,
+                  evaluation.figures.total_aoi, evaluation.figures.average_aoi, evaluation.figures.sum_aoi);
+  writer_.Write({"metrics", directory_ / "metrics.csv", [text = metrics_] { return text; }, {}});
+}
+
+void RunFolder::WriteBest(const BestNetwork& best) {
+  const StoredNetwork network{experiment_, best.evaluation.version, best.evaluation.updates,
+                              *best.parameters};
+  writer_.Write(
+      {"best", directory_ / "best.network", [network] { return SerializeNetworkFile(network); }, {}});
+}
+
+void RunFolder::WriteCheckpoint(std::shared_ptr<const Checkpoint> checkpoint) {
+  const int64_t committed_orders = checkpoint->training.progress.committed_orders;
+  const int kept = experiment_.run().checkpoints_kept();
+  writer_.Write({kCheckpoint, checkpoints_.PathFor(committed_orders),
+                 [this, checkpoint] {
+                   checkpoints_.Make();
+                   return SerializeCheckpoint(*checkpoint);
+                 },
+                 [this, kept] { checkpoints_.Prune(kept); }});
+}
+
+void RunFolder::WriteFinal(const Vector& parameters, const TrainerProgress& progress) {
+  WriteFileAtomically(
+      directory_ / "final.network",
+      SerializeNetworkFile({experiment_, progress.current_version, progress.updates, parameters}));
+}
+
+void RunFolder::WriteSummary(const std::string& json) {
+  WriteFileAtomically(directory_ / "summary.json", json + "\n");
+}
+
+void RunFolder::WriteOptimum(const std::string& json) {
+  WriteFileAtomically(directory_ / "optimum.json", json + "\n");
+}
+
+std::string NewestRunHint(const std::filesystem::path& folder, const std::string& file) {
+  std::filesystem::path newest;
+  std::filesystem::file_time_type newest_time;
+  std::error_code error;  // ignored: a folder that can't be read is no run
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const auto time = std::filesystem::last_write_time(entry.path() / file, error);
+    if (!error && (newest.empty() || time > newest_time)) {
+      newest = entry.path();
+      newest_time = time;
+    }
+  }
+  return newest.empty() ? "" : "; the newest run in it is " + newest.string();
+}
+
+}  // namespace fresco

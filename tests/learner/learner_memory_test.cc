@@ -1,0 +1,172 @@
+// What is foretold of the learner's memory, against what its parts really take of the heap.
+#include "learner/learner_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+
+#include "learner/weight_publisher.h"
+#include "msgs/versions_in_flight.h"
+#include "storage/checkpoint_file.h"
+#include "tests/support/heap_use.h"
+#include "tests/support/sanitized.h"
+#include "tests/training/recorded_run.h"
+#include "training/action_history.h"
+#include "training/dqn.h"
+#include "training/ledger.h"
+#include "training/replay_memory.h"
+
+namespace fresco {
+namespace {
+
+constexpr double kMemoryTolerance = 0.02;
+const MlpShape kMemoryShape({25, 300, 200, 45});
+
+/// `foretold` within `tolerance` of what was measured.
+void ExpectNear(int64_t measured, int64_t foretold, double tolerance = kMemoryTolerance) {
+  EXPECT_NEAR(static_cast<double>(measured), static_cast<double>(foretold),
+              tolerance * static_cast<double>(measured));
+}
+
+class LearnerMemoryTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (kSanitized) {
+      GTEST_SKIP() << "a sanitizer has a heap of its own";
+    }
+  }
+};
+
+TEST_F(LearnerMemoryTest, OfTheReplayMemoryAndItsActionsIsForetold) {
+  ExpectNear(HeapUseOf([] { return std::make_unique<ReplayMemory>(25, 45, 10'000); }),
+             ReplayMemory::BytesFor(25, 45, 10'000));
+  ExpectNear(HeapUseOf([] { return std::make_unique<ActionHistory>(50'000, 70); }),
+             ActionHistory::BytesFor(50'000, 70));
+}
+
+TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
+  constexpr int kColumns = 500;
+  ExpectNear(HeapUseOf([&] { return std::make_unique<MiniBatch>(25, 45, kColumns); }),
+             MiniBatch::BytesFor(25, 45, kColumns));
+  MiniBatch batch(25, 45, kColumns);
+  for (Matrix* matrix : {&batch.observations, &batch.next_observations, &batch.next_penalty}) {
+    matrix->setZero();
+  }
+  const Vector initial = InitialParameters(kMemoryShape, 1);
+  const int64_t measured = HeapUseOf([&] {
+    auto dqn = std::make_unique<Dqn>(kMemoryShape, initial, DqnOptions{.batch_size = kColumns, .adam = {}});
+    dqn->Update(batch, 1e-3);  // the gradients of the units are made by the first one
+    return dqn;
+  });
+  ExpectNear(measured, Dqn::ParameterBytes(kMemoryShape) + Dqn::BatchBytes(kMemoryShape, kColumns));
+}
+
+TEST_F(LearnerMemoryTest, OfOrdersInFlightIsForetold) {
+  const RecordedRun run;
+  constexpr int64_t kManyOrders = 300;
+  Episode episode = run.Fly(run.next());
+  const int64_t measured = HeapUseOf([&] {
+    auto ledger = std::make_unique<Ledger>(run.world, run.experiment.mask_options());
+    for (int64_t index = 0; index < kManyOrders; ++index) {
+      Order order;
+      order.index = index;
+      ledger->Write(order);
+      episode.order_index = index;
+      EXPECT_EQ(ledger->Add(episode), Ledger::Arrival::kCompleted);
+    }
+    return ledger;
+  });
+  ExpectNear(measured, Ledger::BytesFor(run.world, kManyOrders), 0.15);  // small blocks, rounded up
+}
+
+TEST_F(LearnerMemoryTest, OfAPublishedVersionIsForetold) {
+  constexpr int kVersions = 20;
+  const auto parameters = std::make_shared<const Vector>(Vector::Zero(200'000));
+  const int64_t measured = HeapUseOf([&] {
+    auto publisher = std::make_unique<WeightPublisher>();
+    for (int version = 0; version < kVersions; ++version) {
+      publisher->Offer(NetworkKind::kCurrent, version, parameters);
+    }
+    return publisher;
+  });
+  ExpectNear(measured, kVersions * WeightPublisher::BytesPerVersion(parameters->size()), 0.05);
+}
+
+/// The longest that a run's orders hold versions back, against what is foretold.
+void ExpectVersionsForetold(const Settings& settings) {
+  RecordedRun run(settings);
+  VersionsInFlight most;
+  while (!run.trainer.finished()) {
+    run.Commit(run.Fly(run.next()));
+    VersionsInFlight now;
+    for (const VersionState& version : run.trainer.Save().versions) {
+      ++(version.kind == NetworkKind::kCurrent ? now.current : now.target);
+    }
+    most = {std::max(most.current, now.current), std::max(most.target, now.target)};
+  }
+  const VersionsInFlight foretold = MostVersionsInFlight(run.experiment);
+  EXPECT_LE(most.current, foretold.current);
+  EXPECT_LE(most.target, foretold.target);
+  // Less where evaluations, which make no updates, take places of the window.
+  EXPECT_GE(most.current + 3, foretold.current * 9 / 10);
+  EXPECT_GE(most.target + 3, foretold.target * 9 / 10);
+}
+
+TEST_F(LearnerMemoryTest, OfVersionsThatOrdersHoldBackIsForetold) {
+  ExpectVersionsForetold({});
+  ExpectVersionsForetold({{"schedule.updates_per_version", "1"}, {"agent.target_update_period", "1"}});
+  ExpectVersionsForetold({{"schedule.window", "20"}, {"schedule.updates_per_version", "2"}});
+}
+
+TEST_F(LearnerMemoryTest, OfACheckpointIsForetoldAtMost) {
+  RecordedRun run(Settings{{"agent.hidden_layers", "200,200"}});
+  while (run.trainer.progress().updates < 100) {
+    run.Commit(run.Fly(run.next()));
+  }
+  const TrainingState state = run.trainer.Save();
+  const int64_t foretold = CheckpointBytes(state.current.size(), static_cast<int64_t>(state.versions.size()),
+                                           static_cast<int64_t>(state.actions.size()));
+  const auto file =
+      static_cast<int64_t>(SerializeCheckpoint({run.experiment, ArithmeticFingerprint(), 1, state}).size());
+  const int64_t copied = HeapUseOf([&] { return std::make_unique<TrainingState>(run.trainer.Save()); });
+  EXPECT_LE(copied + 3 * file, foretold * 11 / 10);  // message, content and file are of one size
+  EXPECT_GE(copied + 3 * file, foretold * 9 / 10);
+}
+
+TEST_F(LearnerMemoryTest, OfAConfigurationGrowsWithEveryFieldThatSetsIt) {
+  const int64_t usual = LearnerMemory(SmallExperiment()).bytes();
+  for (const auto& [field, value] : Settings{{"agent.replay_capacity", "100000000"},
+                                             {"agent.batch_size", "65536"},
+                                             {"agent.hidden_layers", "2000,2000"},
+                                             {"schedule.window", "4096"},
+                                             {"schedule.updates_per_version", "1"},
+                                             {"run.optimum_memory_mb", "100000"}}) {
+    EXPECT_GT(LearnerMemory(SmallExperiment({{field, value}})).bytes(), usual) << field;
+  }
+  EXPECT_LT(LearnerMemory(SmallExperiment({{"run.optimum_limit_s", "0"}})).bytes(), usual - 2'000'000'000);
+}
+
+// The largest of everything that a configuration may say, without an overflow on the way.
+TEST_F(LearnerMemoryTest, OfTheLargestConfigurationIsPositive) {
+  const Experiment largest = SmallExperiment({{"agent.replay_capacity", "100000000"},
+                                              {"agent.hidden_layers", "3000,3000"},
+                                              {"agent.batch_size", "4096"},
+                                              {"scenario.slots", "10000"},
+                                              {"scenario.initial_energy_j", "1e9"},
+                                              {"schedule.window", "4096"},
+                                              {"schedule.inserts_per_update", "1"},
+                                              {"schedule.updates_per_version", "1"},
+                                              {"agent.target_update_period", "1"},
+                                              {"schedule.episodes", "4000000000"},
+                                              {"run.optimum_memory_mb", "1000000"}});
+  const MemoryNeed need = LearnerMemory(largest);
+  for (const MemoryPart& part : need.parts) {
+    EXPECT_GE(part.bytes, 0) << part.purpose;
+  }
+  EXPECT_GT(need.bytes(), int64_t{1'000'000'000'000'000});
+}
+
+}  // namespace
+}  // namespace fresco

@@ -1,0 +1,151 @@
+#include "storage/run_folder.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <set>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "storage/network_file.h"
+#include "tests/training/literal_run.h"
+
+namespace fresco {
+namespace {
+
+using Path = std::filesystem::path;
+
+class RunFolderTest : public ::testing::Test {
+ protected:
+  RunFolderTest()
+      : directory_(std::filesystem::temp_directory_path() /
+                   ("fresco-run-folder-" + std::to_string(getpid()))),
+        experiment_(SmallExperiment()) {
+    std::filesystem::remove_all(directory_);
+  }
+  ~RunFolderTest() override { std::filesystem::remove_all(directory_); }
+
+  std::set<std::string> Names() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+      names.insert(entry.path().filename());
+    }
+    return names;
+  }
+
+  std::string Content(const std::string& name) const { return ReadFile(directory_ / name); }
+
+  Vector Parameters(uint64_t seed) const { return InitialParameters(experiment_.network_shape(), seed); }
+
+  /// What the error of opening a run's folder at `path` says; it must be wrong use.
+  std::string Refusal(const Path& path) const {
+    try {
+      RunFolder folder(path, experiment_);
+      ADD_FAILURE() << "accepted " << path;
+      return {};
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      return error.what();
+    }
+  }
+
+  Path directory_;
+  Experiment experiment_;
+};
+
+Evaluation EvaluationOf(int64_t version, bool arrived) {
+  return {version, version * 100, version * 10, arrived, {1234, 8.5, 17.25}};
+}
+
+TEST_F(RunFolderTest, BeginsWithTheWholeConfigurationInAFolderOfItsOwn) {
+  const Path nested = directory_ / "a" / "b";
+  const RunFolder folder(nested, experiment_);
+  EXPECT_EQ(folder.directory(), nested);
+  const Experiment read = Experiment::Load(nested / "config.textproto");
+  EXPECT_EQ(read.Text(), experiment_.Text());
+  EXPECT_EQ(read.hash(), experiment_.hash());
+}
+
+TEST_F(RunFolderTest, HasTheFilesOfARunAndNothingElse) {
+  RunFolder folder(directory_, experiment_);
+  EXPECT_EQ(Names(), std::set<std::string>{"config.textproto"});
+  folder.AddMetrics(EvaluationOf(1, true), {}, 1);
+  folder.WriteBest({EvaluationOf(1, true), std::make_shared<const Vector>(Parameters(1))});
+  folder.Finish();
+  folder.WriteFinal(Parameters(1), {});
+  folder.WriteOptimum("{}");
+  folder.WriteSummary("{}");
+  EXPECT_EQ(Names(), (std::set<std::string>{"best.network", "config.textproto", "final.network",
+                                            "metrics.csv", "optimum.json", "summary.json"}));
+}
+
+TEST_F(RunFolderTest, AddsALineOfMetricsWithEveryEvaluation) {
+  RunFolder folder(directory_, experiment_);
+  TrainerProgress progress;
+  progress.transitions = 780;
+  progress.epsilon = 0.16;
+  progress.learning_rate = 0.00125;
+  progress.loss = 0.0625;
+  const std::string header =
+      "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,total_aoi,average_aoi,"
+      "sum_aoi\n";
+  const std::string first = "1.500,40,780,400,4,0.16,0.00125,0.0625,1,1234,8.500000,17.250000\n";
+  folder.AddMetrics(EvaluationOf(4, true), progress, 1.5);
+  folder.Finish();
+  EXPECT_EQ(Content("metrics.csv"), header + first);
+  progress.transitions = 1560;
+  folder.AddMetrics(EvaluationOf(8, false), progress, 61.0625);
+  folder.Finish();
+  EXPECT_EQ(Content("metrics.csv"),
+            header + first + "61.062,80,1560,800,8,0.16,0.00125,0.0625,0,1234,8.500000,17.250000\n");
+}
+
+TEST_F(RunFolderTest, DeliversTheBestNetworkAsANetworkFile) {
+  RunFolder folder(directory_, experiment_);
+  folder.WriteBest({EvaluationOf(3, true), std::make_shared<const Vector>(Parameters(3))});
+  folder.WriteBest({EvaluationOf(9, true), std::make_shared<const Vector>(Parameters(9))});
+  folder.Finish();
+  const StoredNetwork network = ReadNetworkFile(directory_ / "best.network");
+  EXPECT_EQ(network.version, 9);
+  EXPECT_EQ(network.updates, 900);
+  EXPECT_EQ(network.experiment.hash(), experiment_.hash());
+  EXPECT_TRUE(network.parameters == Parameters(9));
+}
+
+TEST_F(RunFolderTest, DeliversTheFinalNetworkAsANetworkFile) {
+  RunFolder folder(directory_, experiment_);
+  TrainerProgress progress;
+  progress.current_version = 53;
+  progress.updates = 371;
+  folder.WriteFinal(Parameters(2), progress);
+  const StoredNetwork network = ReadNetworkFile(directory_ / "final.network");
+  EXPECT_EQ(network.version, 53);
+  EXPECT_EQ(network.updates, 371);
+  EXPECT_TRUE(network.parameters == Parameters(2));
+}
+
+TEST_F(RunFolderTest, RefusesAFolderWithTheSummaryOfAnotherRunAndLeavesItAsItIs) {
+  RunFolder(directory_, SmallExperiment({{"schedule.seed", "8"}})).WriteSummary("{\"seed\": 8}");
+  const std::string configuration = Content("config.textproto");
+  const std::string refusal = Refusal(directory_);
+  EXPECT_NE(refusal.find(directory_.string()), std::string::npos) << refusal;
+  EXPECT_EQ(Content("summary.json"), "{\"seed\": 8}\n");
+  EXPECT_EQ(Content("config.textproto"), configuration);
+}
+
+TEST_F(RunFolderTest, TakesAFolderWithoutASummary) {
+  std::filesystem::create_directories(directory_);
+  WriteFileAtomically(directory_ / "notes.txt", "mine");
+  const RunFolder folder(directory_, experiment_);
+  EXPECT_EQ(Content("notes.txt"), "mine");
+}
+
+TEST_F(RunFolderTest, RefusesAPlaceWhereNoFolderCanBe) {
+  std::filesystem::create_directories(directory_);
+  WriteFileAtomically(directory_ / "file", "not a folder");
+  EXPECT_NE(Refusal(directory_ / "file").find("file"), std::string::npos);
+  EXPECT_NE(Refusal(directory_ / "file" / "run").find("can't make the folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fresco
