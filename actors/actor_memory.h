@@ -1,4 +1,4 @@
-// What a configuration makes an actor take of memory. Pure.
+// Computes how much memory an actor needs for a configuration. A pure function; any thread may call it.
 #pragma once
 
 #include "core/memory_need.h"
@@ -6,7 +6,8 @@
 
 namespace fresco {
 
-/// Of one actor, at most: with every order of the window, and `capacity` environments.
+/// Returns the most memory that one actor needs: if it flies all orders of the window, in `capacity` (>= 1)
+/// environments.
 MemoryNeed ActorMemory(const Experiment& experiment, int capacity);
 
 }  // namespace fresco

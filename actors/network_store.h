@@ -25,7 +25,7 @@ class NetworkStore {
   /// `parameters` (>= 1): number of values in each network.
   explicit NetworkStore(int64_t parameters) : parameters_(parameters) {}
 
-  /// What it takes of memory at most while so many versions are wanted.
+  /// The most memory of an object while `wanted` versions are wanted, bytes.
   static int64_t BytesFor(int64_t parameters, int64_t wanted);
 
   enum class Arrival {

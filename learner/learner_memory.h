@@ -1,4 +1,4 @@
-// What a configuration makes the learner take of memory. Pure.
+// Computes how much memory the learner needs for a configuration. A pure function; any thread may call it.
 #pragma once
 
 #include "core/memory_need.h"
@@ -6,7 +6,8 @@
 
 namespace fresco {
 
-/// At most, with the replay memory full and a checkpoint being written. Exact but for what is small.
+/// Returns the most memory that the learner needs: when the replay memory is full and a checkpoint is being
+/// written. Small objects are left out.
 MemoryNeed LearnerMemory(const Experiment& experiment);
 
 }  // namespace fresco

@@ -1,4 +1,5 @@
-// How many versions of the networks the orders in flight can name. Pure.
+// Computes how many versions of the networks the orders in flight can name. A pure function; any thread may
+// call it.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,8 @@
 
 namespace fresco {
 
-/// At most. A version lives from when it is made until no order in flight names it or an older one, and of
-/// these orders there are schedule.window.
+/// The largest numbers of versions in flight. A version is in flight from when it is made until no order in
+/// flight names it or an older one; there are schedule.window training orders in flight.
 struct VersionsInFlight {
   int64_t current = 0;
   int64_t target = 0;

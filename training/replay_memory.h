@@ -16,7 +16,7 @@ namespace fresco {
 struct MiniBatch {
   MiniBatch(int inputs, int actions, int batch_size);
 
-  /// What it takes of memory beside the object itself.
+  /// The memory of a mini-batch, bytes.
   static int64_t BytesFor(int inputs, int actions, int batch_size);
 
   int size() const { return static_cast<int>(actions.size()); }

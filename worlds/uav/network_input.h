@@ -28,7 +28,7 @@ class NetworkInput {
   /// The number of entries for so many sensors.
   static int Size(int sensors, NetworkInputOptions options);
   int size() const { return Size(world_->sensors(), options_); }
-  /// What it takes of memory beside the object itself.
+  /// The memory of the geometry table, bytes.
   static int64_t BytesFor(const World& world, NetworkInputOptions options);
 
   /// Writes the entries to `input`. CHECKs that it has size() entries. Uses only what messages carry of a
