@@ -1,4 +1,4 @@
-// fresco-actor: one actor process. Needs nothing but an LCM URL; see actors/actor.h.
+// The program fresco-actor: one actor process. It needs nothing but an LCM URL; see actors/actor.h.
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -66,15 +66,17 @@ void Serve(const Arguments& arguments) {
 int Main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "Flies episodes for Fresco's learner: waits on the bus for a run, serves it, waits for the next.",
+      "Flies episodes for Fresco's learner: waits for a run on the bus, serves it, and waits for the next "
+      "one.",
       "fresco-actor");
   app.set_version_flag("--version", kSoftwareVersion);
-  app.add_option("--lcm-url", arguments.lcm_url, "Where the learner is")->capture_default_str();
+  app.add_option("--lcm-url", arguments.lcm_url, "LCM URL of the learner")->capture_default_str();
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->capture_default_str();
   app.add_option("--run-id", arguments.run_id, "Serve this run only (16 hexadecimal digits)");
   AddBusOptions(app, arguments.bus);
-  app.add_option("--environments", arguments.environments, "Episodes flown side by side; 0: as the run says")
+  app.add_option("--environments", arguments.environments,
+                 "Episodes flown side by side; 0: as the run's configuration says")
       ->check(CLI::Range(0, 4096));
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");
   if (ParseCommandLine(app, argc, argv)) {

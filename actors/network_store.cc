@@ -8,9 +8,9 @@
 namespace fresco {
 namespace {
 
-// Versions kept beyond the wanted ones: the newest, which the next orders will name.
+// How many versions are kept besides the wanted ones. The next orders will probably name these.
 constexpr size_t kSpareVersions = 8;
-// The learner does not answer for so long: it has dropped the version, or never made it.
+// If the learner sends no chunk of a version for so long, it has dropped the version or never made it.
 constexpr int64_t kGivenUpUs = 500'000;
 
 chunk_range_t Range(NetworkVersion version, int first, int count) {
@@ -43,7 +43,7 @@ NetworkStore::Arrival NetworkStore::Add(NetworkKind kind, const weights_t& messa
     return Arrival::kRejected;
   }
   if (contradicts) {
-    Begin(assembly, message.crc32c, now_us);  // whichever of the two is the wrong one
+    Begin(assembly, message.crc32c, now_us);  // one of the two CRCs is wrong, but which is not known
   }
   assembly.last_arrival_us = now_us;
   if (assembly.received[static_cast<size_t>(chunk)] != 0) {
@@ -90,8 +90,9 @@ void NetworkStore::Begin(Assembly& assembly, int64_t crc32c, int64_t now_us) con
   assembly.last_arrival_us = now_us;
 }
 
-/// Forgets unwanted versions, first the one of which nothing has arrived for the longest time: a version
-/// number says nothing of its worth, where a run was resumed or the number is a lie.
+/// Forgets unwanted versions until at most kSpareVersions - 1 are left, first those of which nothing has
+/// arrived for the longest time. It does not go by version number: after a learner was resumed, or in a
+/// forged message, a high number does not mean that the version is needed.
 void NetworkStore::MakeRoom() {
   std::vector<std::tuple<int64_t, int32_t, NetworkKind>> unwanted;
   for (const auto& [version, assembly] : versions_) {

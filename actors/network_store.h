@@ -1,6 +1,7 @@
-// The network versions that an actor holds or is assembling from chunks. A version is handed out
-// only when every chunk is there and the CRC of the whole holds, so nobody ever acts with a mixed or
-// corrupt network. Memory is bounded. Not thread-safe.
+// The network store holds the network versions of one run that an actor has or is assembling from chunks. It
+// hands a version out only if every chunk is there and the CRC of the whole is right, so an actor never uses
+// a mixed or damaged network. Memory is bounded. All times are monotonic microseconds. An actor owns one for
+// each run that it serves. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -21,42 +22,45 @@ using NetworkVersion = std::pair<NetworkKind, int32_t>;
 
 class NetworkStore {
  public:
-  /// For networks of `parameters` values.
+  /// `parameters` (>= 1): number of values in each network.
   explicit NetworkStore(int64_t parameters) : parameters_(parameters) {}
 
   /// What it takes of memory at most while so many versions are wanted.
   static int64_t BytesFor(int64_t parameters, int64_t wanted);
 
   enum class Arrival {
-    kAccepted,   ///< a new chunk
-    kDuplicate,  ///< a chunk that is there
-    kCompleted,  ///< the last missing chunk, and the CRC holds
-    kRestarted,  ///< contradicts the CRC of an incomplete version, which begins anew with this chunk
-    kRejected,   ///< contradicts the network's size or a complete version's CRC
+    kAccepted,   ///< the chunk was missing
+    kDuplicate,  ///< the chunk was there already
+    kCompleted,  ///< it was the last missing chunk, and the CRC is right
+    kRestarted,  ///< it has another CRC than the chunks before; these were discarded and assembly began again
+    kRejected,   ///< it contradicts the network's size or a complete version, or the CRC of the whole is
+                 ///< wrong
   };
 
-  /// Takes a chunk that arrived at `now_us` (monotonic).
+  /// Takes a chunk of a network of this kind that arrived at `now_us`. If the version is new and there is no
+  /// room, the store forgets a version that SetWanted did not name.
   Arrival Add(NetworkKind kind, const weights_t& message, int64_t now_us);
 
-  /// The parameters of a complete version; null where it is not (yet) complete.
+  /// Returns the parameters of a version; null if the version is not complete.
   std::shared_ptr<const Vector> Find(NetworkVersion version) const;
 
-  /// Names the versions that orders need: others are forgotten as room is needed, and of these the
-  /// missing chunks are reported.
+  /// Says which versions the actor's orders need. The store keeps these, and MissingRanges reports their
+  /// missing chunks. It may forget any other version to make room.
   void SetWanted(std::set<NetworkVersion> wanted);
 
-  /// Ranges of missing chunks of versions of which nothing has arrived for kQuietVersionUs: first of the wanted
-  /// ones, then of those that are on their way, which the next orders will name: some chunk came within the
-  /// last half second, and they are no older than the oldest wanted of late. At most
-  /// kMaximumMissingRanges.
+  /// Returns the missing chunks that the actor should ask for, at most kMaximumMissingRanges ranges. Reports
+  /// a version only if nothing of it has arrived for kQuietVersionUs. Wanted versions come first. Incomplete
+  /// versions that the next orders will probably name follow: a chunk of it arrived within the last half
+  /// second, and it is not older than the oldest wanted version of the same network.
   std::vector<chunk_range_t> MissingRanges(int64_t now_us);
 
-  /// Complete versions, at most kMaximumHeldVersions, as {kind, version, 0, chunks}.
+  /// Returns the complete versions, at most kMaximumHeldVersions, each as the range of all its chunks.
   std::vector<chunk_range_t> HeldVersions() const;
 
-  /// Missing chunks of a version, all of them where nothing of it is here.
+  /// The number of missing chunks of a version; the number of all its chunks if none has arrived.
   int MissingChunks(NetworkVersion version) const;
-  /// Versions completed so far, and the longest time from the first chunk of one to its completion.
+  /// The number of versions completed so far, and the longest time from a version's first chunk to its
+  /// completion.
   int64_t completed_versions() const { return completed_versions_; }
   int64_t longest_assembly_us() const { return longest_assembly_us_; }
 
@@ -81,9 +85,9 @@ class NetworkStore {
 
   int64_t parameters_;
   std::map<NetworkVersion, Assembly> versions_;
-  std::map<NetworkVersion, int64_t> asked_us_;  // wanted versions of which nothing is here: since when
+  std::map<NetworkVersion, int64_t> asked_us_;  // since when each wanted version without any chunk is wanted
   std::set<NetworkVersion> wanted_;
-  std::map<NetworkKind, int32_t> oldest_wanted_;  // where orders named one; otherwise the last such
+  std::map<NetworkKind, int32_t> oldest_wanted_;  // of each network; stays if no version of it is wanted now
   int64_t completed_versions_ = 0;
   int64_t longest_assembly_us_ = 0;
 };

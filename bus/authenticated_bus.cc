@@ -20,7 +20,7 @@ const unsigned char* Data(std::span<const std::byte> bytes) {
 
 const Tag& TagOf(const AuthenticationKey& key, std::string_view channel, std::span<const std::byte> content,
                  Tag& tag) {
-  constexpr unsigned char kEndOfChannel = 0;  // no name is the beginning of another and a content
+  constexpr unsigned char kEndOfChannel = 0;  // so that "ab" + "c" and "a" + "bc" have different tags
   crypto_generichash_state state;
   crypto_generichash_init(&state, key.bytes().data(), key.bytes().size(), tag.size());
   crypto_generichash_update(&state, Data(std::as_bytes(std::span(channel))), channel.size());
@@ -69,10 +69,10 @@ class AuthenticatedBus : public Bus {
   UnheardTraffic unheard() const override { return inner_->unheard(); }
 
  private:
-  std::unique_ptr<Bus> owned_;  // where it is this one's own
+  std::unique_ptr<Bus> owned_;  // null if this object does not own inner_
   Bus* inner_;
   AuthenticationKey key_;
-  std::mutex publish_mutex_;  // guards the two below
+  std::mutex publish_mutex_;  // guards published_ and published_tag_
   std::vector<std::byte> published_;
   Tag published_tag_{};
   std::atomic<int64_t> refused_ = 0;

@@ -1,10 +1,11 @@
-// A decorator that lets only messages of those who hold a key through. Behind every message that it
-// publishes stands a tag, the keyed BLAKE2b-256 of the channel's name, a zero byte and the content; a
-// message that arrives without the tag of its channel and content is counted and dropped before any
-// handler sees it. The content itself is not changed, so LCM's own tools still read the messages.
+// A bus that accepts only messages from senders with the same key. It wraps another bus. It appends a tag to
+// every message that it publishes: the keyed BLAKE2b-256 of the channel's name, a zero byte and the content.
+// It counts and drops every arriving message whose tag is wrong or missing, before any handler sees it. The
+// content is not changed, so LCM's own tools still read the messages.
 //
-// It proves that a message came from somebody with the key and was not changed or moved to another
-// channel. It hides nothing, and an old message that is sent again passes: see docs/reliability.md.
+// The tag proves that the sender has the key, and that nobody changed the message or moved it to another
+// channel. It does not encrypt, and it does not stop anybody from sending an old message again: see
+// docs/reliability.md.
 #pragma once
 
 #include <memory>
@@ -19,17 +20,18 @@ namespace fresco {
 
 inline constexpr size_t kAuthenticationTagBytes = 32;
 
-/// The content of a message as it stands on the wire or in a log, where the tag behind it is that of this key
-/// and channel; nullopt otherwise. Compares in a time that does not depend on where they differ. Thread-safe.
+/// Takes a message as it is on the wire or in a log, and returns its content without the tag if the tag is
+/// right for this key and channel; otherwise nullopt. The time of the comparison does not depend on the
+/// bytes. Any thread may call it.
 std::optional<std::span<const std::byte>> AuthenticContent(const AuthenticationKey& key,
                                                            std::string_view channel,
                                                            std::span<const std::byte> message);
 
-/// Authenticates what passes to and from `inner`, which must outlive the decorator and must not be polled
-/// after its end. Threads as of any bus; receiving allocates nothing.
+/// Returns a bus that authenticates all messages to and from `inner`. `inner` must outlive it, and must not
+/// be polled after it is destroyed. Threads may use it as they may use any bus. Receiving does not allocate.
 std::unique_ptr<Bus> MakeAuthenticatedBus(Bus& inner, const AuthenticationKey& key);
 
-/// The same with a bus of its own.
+/// Does the same, and owns `inner`.
 std::unique_ptr<Bus> MakeAuthenticatedBus(std::unique_ptr<Bus> inner, const AuthenticationKey& key);
 
 }  // namespace fresco

@@ -32,8 +32,8 @@ void InitialiseSodium() {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// Without a buffer of its own, so that no copy of the secret is left behind. O_NONBLOCK: a pipe that
-/// nobody writes is refused, not waited for.
+/// Opens the file without a stream buffer, so that no copy of the secret stays in memory. O_NONBLOCK lets a
+/// pipe without a writer be refused; otherwise open would wait for one.
 File OpenUnbuffered(const std::filesystem::path& path) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   File file(descriptor < 0 ? nullptr : fdopen(descriptor, "rb"), &std::fclose);
@@ -44,7 +44,7 @@ File OpenUnbuffered(const std::filesystem::path& path) {
   return file;
 }
 
-/// The file that is open, not the one that the path names by now.
+/// Checks the open file itself, since the path may name another file by now.
 void CheckKindAndMode(const File& file, const std::filesystem::path& path) {
   struct stat status {};
   if (fstat(fileno(file.get()), &status) != 0 || !S_ISREG(status.st_mode)) {

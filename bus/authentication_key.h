@@ -1,5 +1,5 @@
-// The secret that the programs of one run share; see bus/authenticated_bus.h. A plain value whose bytes
-// are wiped when it ends; each copy is wiped by itself.
+// The secret key that the programs of one run share; see bus/authenticated_bus.h. A plain value. Its
+// destructor overwrites the bytes with zeros; so does that of each copy.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ class AuthenticationKey {
  public:
   static constexpr size_t kBytes = 32;
 
-  /// The key of a secret of any length: its BLAKE2b-256.
+  /// Derives the key from a secret of any length: the key is the secret's BLAKE2b-256.
   explicit AuthenticationKey(std::span<const std::byte> secret);
   ~AuthenticationKey();
   AuthenticationKey(const AuthenticationKey&) = default;
@@ -26,15 +26,15 @@ class AuthenticationKey {
   std::array<unsigned char, kBytes> bytes_{};
 };
 
-/// Where the key is; none: messages are not authenticated.
+/// The path of the key file; none if messages are not authenticated.
 using KeyFile = std::optional<std::filesystem::path>;
 
 inline constexpr size_t kMinimumKeyFileBytes = 32;
 inline constexpr size_t kMaximumKeyFileBytes = 65536;
 
-/// The key of a file's whole content. Throws UsageError where the file can't be read, is shorter than
-/// kMinimumKeyFileBytes or longer than kMaximumKeyFileBytes, or may be read or written by others than its
-/// owner; the text names the file and the command that makes a key or mends this one.
+/// Returns the key derived from the whole content of a file. Throws UsageError if the file can't be read, is
+/// shorter than kMinimumKeyFileBytes or longer than kMaximumKeyFileBytes, or if users other than its owner
+/// may read or write it. The error names the file and a command that makes a key or corrects the file's mode.
 AuthenticationKey ReadAuthenticationKey(const std::filesystem::path& path);
 
 }  // namespace fresco

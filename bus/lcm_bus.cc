@@ -25,7 +25,7 @@
 namespace fresco {
 namespace {
 
-/// LCM reads channel names as regular expressions: escapes what is special in one.
+/// Escapes the characters that are special in a regular expression, since LCM reads channel names as such.
 std::string EscapeChannel(const std::string& channel) {
   std::string escaped;
   for (const char c : channel) {
@@ -129,8 +129,8 @@ class LcmBus : public Bus {
     bool listener;
   };
 
-  /// Lets LCM receive messages of this channel. It opens its socket now if it has none yet, and reads
-  /// whatever is on the network until the filter is there.
+  /// Lets LCM receive messages of this channel. Makes LCM open its socket if it has none yet; until the
+  /// filter is attached, LCM reads everything that arrives on it.
   void LetThrough(const std::string& channel) {
     if (!filter_) {
       const std::lock_guard lock(ReceivingSockets());
@@ -151,7 +151,7 @@ class LcmBus : public Bus {
       const std::lock_guard lock(ReceivingSockets());
       listener_ = std::make_unique<MulticastListener>(*multicast_);
     }
-    // What LCM sends and waits for when it opens its own socket.
+    // LCM sends the same message to itself when it opens its socket.
     const std::string channel = "LCM_SELF_TEST";
     const std::string_view content = "lcm self test";
     if (!listener_->Hears(channel, [&] { Publish(channel, std::as_bytes(std::span(content))); })) {
@@ -161,8 +161,8 @@ class LcmBus : public Bus {
 
   [[noreturn]] void RefuseToSubscribe(const std::string& channels) const {
     throw UsageError(
-        fmt::format("LCM can't subscribe to {} on {}: multicast packets do not come back; a firewall "
-                    "may drop them (allow UDP to 224.0.0.0/4), or {}",
+        fmt::format("LCM can't subscribe to {} on {}: multicast packets that it sends do not come back; a "
+                    "firewall may drop them (allow UDP to 224.0.0.0/4), or {}",
                     channels, url_, Remedy(url_)));
   }
 
@@ -197,7 +197,8 @@ class LcmBus : public Bus {
     return 1;
   }
 
-  /// What LCM has to be waited for with; -1: it does not receive (asking it would make it).
+  /// The descriptor that becomes readable when LCM has a message. -1 if LCM does not receive yet; LCM must
+  /// not be asked for it then, since it would open its socket.
   int LcmDescriptor() const {
     if (multicast_ && !filter_) {
       return -1;
@@ -221,13 +222,13 @@ class LcmBus : public Bus {
   }
 
   std::string url_;
-  std::optional<MulticastEndpoint> multicast_;  // with udpm
+  std::optional<MulticastEndpoint> multicast_;  // set if the URL is udpm
   std::mutex publish_mutex_;
-  std::deque<Subscription> subscriptions_;  // stable addresses: LCM holds them
+  std::deque<Subscription> subscriptions_;  // a deque, since LCM holds pointers to the elements
   std::exception_ptr exception_;
   Lcm lcm_;
-  std::optional<ReceiveFilter> filter_;  // with udpm, once LCM receives
-  BusEventHandler hear_all_;             // of what the listener hears
+  std::optional<ReceiveFilter> filter_;  // set if the URL is udpm and LCM receives
+  BusEventHandler hear_all_;             // the handler for the listener's messages
   std::unique_ptr<MulticastListener> listener_;
 };
 

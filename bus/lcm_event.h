@@ -1,4 +1,4 @@
-// One message as it stood on the bus, and as LCM's event logs keep it.
+// One message as it was on the bus, or as an event log of LCM stores it. A plain value.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,15 @@
 
 namespace fresco {
 
-/// What an event log has before an event's channel: sync word, number, time, two lengths, big-endian.
+/// The bytes before the channel of each event in an event log: sync word, number, time and two lengths,
+/// big-endian.
 inline constexpr size_t kEventHeaderBytes = 28;
 
-/// Channel and message point into whoever handed the event out, and are valid as long as that says.
+/// `channel` and `message` point into memory of the object that handed the event out, which says how long
+/// they are valid.
 struct LcmEvent {
-  int64_t number = 0;  ///< place in its log: 0, 1, ..; on a bus, place among what was received
-  int64_t utime = 0;   ///< microseconds since the epoch, when it was received
+  int64_t number = 0;  ///< 0, 1, .. in the order of the log, or in the order of arrival on a bus
+  int64_t utime = 0;   ///< time of arrival, microseconds since the epoch
   std::string_view channel = {};
   std::span<const std::byte> message = {};
 };

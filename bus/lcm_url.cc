@@ -25,7 +25,7 @@ std::optional<int64_t> ToInteger(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-/// LCM reads numbers as C does (010 is eight): returns this one in decimal.
+/// Returns the number without leading zeros, since LCM would read 010 as eight, as C does.
 std::string CheckInteger(const std::string& url, const std::string& name, const std::string& text,
                          int64_t minimum, int64_t maximum) {
   const auto value = ToInteger(text);
@@ -50,7 +50,7 @@ std::map<std::string, std::string> ParseOptions(const std::string& url, const st
   return options;
 }
 
-/// Returns the address as LCM gets it.
+/// Checks host:port (or group:port) and returns it in the form that LCM gets.
 std::string CheckAddress(const std::string& url, const std::string& address, bool multicast) {
   const size_t colon = address.rfind(':');
   if (colon == std::string::npos || colon == 0) {

@@ -1,4 +1,5 @@
-// LCM URLs: checked before LCM sees them, with what Fresco needs added. Pure.
+// Checks LCM URLs before LCM reads them, and adds the options that Fresco needs. Pure functions; any thread
+// may call them.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +8,19 @@
 
 namespace fresco {
 
-/// The URL as it is given to LCM: udpm with ttl=0 and a 4 MB receive buffer where it names none.
-/// Throws UsageError naming the offending part and an example where it is not a udpm://, tcpq:// or
-/// memq:// URL, or has an option that LCM would silently ignore.
+/// Returns the URL in the form that LCM gets. A udpm URL gets ttl=0 and a receive buffer of 4 MB if it does
+/// not say otherwise. Throws UsageError if the URL is not a valid udpm://, tcpq:// or memq:// URL, or has an
+/// option that LCM would silently ignore; the error names the wrong part and gives an example.
 std::string NormalizeLcmUrl(const std::string& url);
 
+/// Where a udpm URL sends and receives.
 struct MulticastEndpoint {
-  std::string group;  ///< IPv4 address
+  std::string group;  ///< IPv4 address of the multicast group
   uint16_t port = 0;
   int receive_buffer_bytes = 0;
 };
 
-/// Where a normalized URL receives; none: it is not udpm.
+/// Returns the endpoint of a normalized URL; nullopt if it is not a udpm URL.
 std::optional<MulticastEndpoint> MulticastEndpointOf(const std::string& url);
 
 }  // namespace fresco

@@ -87,7 +87,7 @@ class LossyBus : public Bus {
 
   bool Happens(double probability) { return stream_.NextUniform() < probability; }
 
-  /// Counts a publish and sends what has waited long enough.
+  /// Called once for each published message; sends the messages that were held back for long enough.
   void ReleaseHeld() {
     for (Held& held : held_) {
       if (--held.publishes_left == 0) {
@@ -97,7 +97,7 @@ class LossyBus : public Bus {
     std::erase_if(held_, [](const Held& held) { return held.publishes_left <= 0; });
   }
 
-  std::unique_ptr<Bus> owned_;  // where it is this one's own
+  std::unique_ptr<Bus> owned_;  // null if this object does not own inner_
   Bus* inner_;
   LossOptions options_;
   std::mutex mutex_;

@@ -1,5 +1,6 @@
-// A decorator for tests and soak runs: loses, repeats, delays (reorders) and corrupts the messages
-// that pass, by a seeded counter-based stream, so that a disturbance can be had again.
+// A bus for tests and soak runs that loses, repeats, delays (so reorders) and corrupts the messages that it
+// publishes. It wraps another bus. The seed decides what happens to each message, so the same disturbance can
+// be repeated. Threads may use it as they may use any bus.
 #pragma once
 
 #include "bus/bus.h"
@@ -10,20 +11,21 @@ namespace fresco {
 struct LossOptions {
   double drop = 0;
   double duplicate = 0;
-  double delay = 0;    ///< held back until 1 to 16 further messages have been published
-  double corrupt = 0;  ///< one bit flipped
+  double delay = 0;    ///< the message is held back until 1 to 16 further messages have been published
+  double corrupt = 0;  ///< one bit of the message is flipped
   uint64_t seed = 1;
 };
 
-/// From "drop=0.01,duplicate=0.02,delay=0.05,corrupt=0.001,seed=3", any of them. Throws UsageError naming
-/// the part that is wrong.
+/// Parses "drop=0.01,duplicate=0.02,delay=0.05,corrupt=0.001,seed=3" or some of these parts. Throws
+/// UsageError that names the wrong part.
 LossOptions ParseLossOptions(const std::string& text);
-/// The text that ParseLossOptions reads.
+/// Returns the text that ParseLossOptions reads.
 std::string ToText(const LossOptions& options);
 
-/// Disturbs what is published through it; subscriptions and polling pass through. `inner` must outlive it.
+/// Returns a bus that disturbs the messages published through it. Receiving is not disturbed. `inner` must
+/// outlive it.
 std::unique_ptr<Bus> MakeLossyBus(Bus& inner, LossOptions options);
-/// The same with a bus of its own.
+/// Does the same, and owns `inner`.
 std::unique_ptr<Bus> MakeLossyBus(std::unique_ptr<Bus> inner, LossOptions options);
 
 }  // namespace fresco

@@ -9,7 +9,8 @@
 namespace fresco {
 namespace {
 
-/// The name with which the bytes begin; none: its zero is missing or its length is not allowed.
+/// Returns the channel name at the beginning of the bytes; nullopt if its zero byte is missing or its length
+/// is not allowed.
 std::optional<std::string_view> ChannelOf(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                               std::min(bytes.size(), kMaximumLcmChannelBytes + 1));
@@ -51,7 +52,7 @@ std::optional<AssembledMessage> MessageAssembler::TakeWhole(std::span<const std:
   return AssembledMessage{std::string(*channel), {content.begin(), content.end()}};
 }
 
-/// None: a number in it is wrong by itself.
+/// Returns nullopt if the fragment can't be valid, whatever other fragments say.
 std::optional<MessageAssembler::Fragment> MessageAssembler::ParseFragment(
     std::span<const std::byte> datagram) {
   if (datagram.size() < kFragmentHeaderBytes) {
@@ -108,7 +109,7 @@ MessageAssembler::Messages::iterator MessageAssembler::FindOrBegin(const Fragmen
   return entry->second;
 }
 
-/// Whether the fragment can be of this message, after those that have arrived.
+/// Whether the fragment fits those of the message that have arrived.
 bool MessageAssembler::Agrees(const Incomplete& message, const Fragment& fragment) {
   if (fragment.message_bytes != message.message_bytes || fragment.count != message.count) {
     return false;
@@ -132,7 +133,7 @@ bool MessageAssembler::IsAtPlace(const Incomplete& message, const Place& place, 
          std::equal(arrived.begin(), arrived.end(), fragment.data.begin(), fragment.data.end());
 }
 
-/// Adds a fragment that agrees, unless it is there already.
+/// Adds a fragment that fits the message, unless it is there already.
 void MessageAssembler::Add(const Fragment& fragment, Incomplete& message) {
   if (message.places.contains(fragment.number)) {
     return;
@@ -144,15 +145,15 @@ void MessageAssembler::Add(const Fragment& fragment, Incomplete& message) {
   if (fragment.number == 0) {
     message.channel = fragment.channel;
   }
-  if (wanted > message.arrived.capacity()) {  // no overlaps: never more than the message
+  if (wanted > message.arrived.capacity()) {  // fragments do not overlap, so it is at most message_bytes
     message.arrived.reserve(std::max(wanted, std::min<size_t>(2 * wanted, message.message_bytes)));
   }
   message.arrived.insert(message.arrived.end(), fragment.data.begin(), fragment.data.end());
   memory_bytes_ += MemoryBytes(message);
 }
 
-/// All fragments are there, in ascending order and without overlap: they leave no hole if they are as long as
-/// the message.
+/// Called when all fragments are there. They ascend and do not overlap, so they leave no hole if and only if
+/// together they are as long as the message.
 std::optional<AssembledMessage> MessageAssembler::Finish(Messages::iterator message) {
   Incomplete finished = Remove(message);
   if (finished.arrived.size() != finished.message_bytes) {
@@ -192,7 +193,7 @@ void MessageAssembler::GiveUpTheSilent(int64_t utime) {
   }
 }
 
-/// With what the containers need for an entry, about.
+/// A message's memory, including roughly what the containers need for their entries.
 size_t MessageAssembler::MemoryBytes(const Incomplete& message) {
   constexpr size_t kMessageBytes = sizeof(Incomplete) + 256;
   constexpr size_t kPlaceBytes = 80;

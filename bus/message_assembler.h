@@ -1,6 +1,6 @@
-// Puts LCM's messages together from the datagrams (bus/lcm_datagram.h) in which they arrive. Anybody may have
-// sent these: every number in them is checked, and only bytes that have arrived take memory. Pure; used by
-// one thread.
+// Assembles LCM's messages from datagrams (bus/lcm_datagram.h). Anybody may have sent the datagrams, so every
+// number in them is checked, and only bytes that have arrived take memory. No I/O, no clock. Only one thread
+// may use an object; the thread of MulticastListener does.
 #pragma once
 
 #include <cstddef>
@@ -23,29 +23,30 @@ struct AssembledMessage {
 
 class MessageAssembler {
  public:
-  /// Incomplete messages take about so much memory at most. One alone may take more: up to
-  /// kMaximumLcmMessageBytes, if so many bytes of it have arrived.
+  /// The default limit of the memory for all incomplete messages, roughly. A single message may take more, up
+  /// to kMaximumLcmMessageBytes, if so many of its bytes have arrived.
   static constexpr size_t kMemoryBytes = size_t{64} << 20;
-  /// A message that gets no further fragment for so long is given up.
+  /// A message is given up if no further fragment of it arrives for so long.
   static constexpr int64_t kPatienceUs = 10'000'000;
 
   explicit MessageAssembler(size_t memory_limit_bytes = kMemoryBytes)
       : memory_limit_bytes_(memory_limit_bytes) {}
 
-  /// Returns the message that this datagram is, or completes. `sender` is its IPv4 address and port as one
-  /// number, `utime` the time of arrival in microseconds.
+  /// Takes a datagram and returns a message if the datagram is a whole message or completes one; otherwise
+  /// nullopt. `sender` is the sender's IPv4 address and port as one number, `utime` the time of arrival in
+  /// microseconds.
   ///
-  /// Refuses a datagram that is not LCM's, a fragment that lies outside of its message, and a fragment that
-  /// contradicts an earlier one of the same message: another size or count, another content of the same
-  /// number, an overlap. A fragment that comes again as it was changes nothing. If there is no memory, the
-  /// message that has waited longest for a fragment is given up.
+  /// Refuses a datagram that is not LCM's, a fragment that reaches beyond its message, and a fragment that
+  /// contradicts an earlier one of the same message: by its message's size or count, by other data under the
+  /// same number, or by an overlap. An exact repetition of a fragment changes nothing. If the memory limit is
+  /// reached, gives up the message that has waited longest for a fragment.
   std::optional<AssembledMessage> Take(std::span<const std::byte> datagram, uint64_t sender, int64_t utime);
 
   int64_t refused_datagrams() const { return refused_datagrams_; }
-  /// Messages of which fragments were taken and that have not come out: those given up, those whose fragments
+  /// The number of messages that began and did not become complete: those given up, those whose fragments
   /// left a hole, and those that still wait for fragments.
   int64_t incomplete_messages() const { return given_up_ + static_cast<int64_t>(messages_.size()); }
-  /// What the messages take that still wait for fragments.
+  /// The memory of the messages that still wait for fragments, bytes.
   size_t memory_bytes() const { return memory_bytes_; }
 
  private:
@@ -58,10 +59,10 @@ class MessageAssembler {
     uint16_t number;
     uint16_t count;
     std::span<const std::byte> data;
-    std::string_view channel = {};  // of fragment 0
+    std::string_view channel = {};  // empty unless this is fragment 0
   };
 
-  /// Where the data of a fragment are, in the message and among the bytes that have arrived.
+  /// Where a fragment's data are: `offset` in the message, `arrived_at` in Incomplete::arrived.
   struct Place {
     uint32_t offset;
     uint32_t bytes;
@@ -74,7 +75,7 @@ class MessageAssembler {
     uint16_t count;
     int64_t touched_utime = 0;
     std::string channel = {};
-    std::map<uint16_t, Place> places = {};  // by number; the offsets ascend with it
+    std::map<uint16_t, Place> places = {};  // by fragment number; the offsets ascend, too
     std::vector<std::byte> arrived = {};
   };
   using Messages = std::list<Incomplete>;
@@ -96,7 +97,7 @@ class MessageAssembler {
 
   size_t memory_limit_bytes_;
   size_t memory_bytes_ = 0;
-  Messages messages_;  // first the one that has waited longest for a fragment
+  Messages messages_;  // sorted: the first has waited longest for a fragment
   std::map<Key, Messages::iterator> by_key_;
   int64_t refused_datagrams_ = 0;
   int64_t given_up_ = 0;

@@ -13,8 +13,9 @@
 namespace fresco {
 namespace {
 
-// Of messages that wait for a handler which is slower than the network, with what each needs besides its
-// content. The kernel's buffer keeps what comes beyond, and drops and counts what finds no room there either.
+// The limit of the memory for messages that wait for a handler that is slower than the network, and the
+// overhead of each message. Beyond it, messages stay in the kernel's buffer. If that is full, the kernel
+// drops and counts them.
 constexpr size_t kMaximumArrivedBytes = size_t{128} << 20;
 constexpr size_t kArrivedOverheadBytes = 128;
 
@@ -82,7 +83,7 @@ UnheardTraffic MulticastListener::unheard() const {
   return unheard_;
 }
 
-/// The thread.
+/// The function of the listening thread.
 void MulticastListener::Listen(const std::stop_token& stop) {
   const std::stop_callback wake(stop, [this] { end_.Set(); });
   while (!stop.stop_requested()) {

@@ -1,6 +1,6 @@
-// Hears all LCM channels of a multicast group without LCM, which believes every number in a packet. A thread
-// of its own empties the socket, so that nothing is lost while the program does something else. Its functions
-// belong to one thread.
+// Receives the messages of all LCM channels of a multicast group. It does not use LCM's own receiving code,
+// which trusts every number in a packet. A thread of its own reads the socket, so no message is lost while
+// the program is busy. Only one thread may call its functions.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +20,7 @@
 
 namespace fresco {
 
-/// A descriptor that can be waited for: readable from Set until Clear. Any thread.
+/// A descriptor for poll(2) that is readable from Set until Clear. Any thread may use it.
 class EventDescriptor {
  public:
   EventDescriptor();
@@ -38,22 +38,25 @@ class EventDescriptor {
 
 class MulticastListener {
  public:
-  /// Begins to listen. Throws UsageError as MulticastSocket does.
+  /// Starts to listen. Throws UsageError as MulticastSocket does.
   explicit MulticastListener(const MulticastEndpoint& endpoint);
 
-  /// Whether a message of this channel arrives that `send` sends: again and again for ten seconds. Drops all
-  /// messages up to this one.
+  /// Tests whether the socket receives: calls `send`, which sends a message on this channel, every 0.1 s
+  /// until such a message arrives. Returns false if none arrives within ten seconds. Drops that message and
+  /// all before it.
   bool Hears(const std::string& channel, const std::function<void()>& send);
 
-  /// Readable if messages have arrived that HandOut has not looked at.
+  /// A descriptor that is readable if messages have arrived since the last HandOut took some from the thread.
   int descriptor() const { return arrival_.descriptor(); }
-  /// Whether HandOut has messages that it has looked at and not handed out.
+  /// Whether HandOut has taken messages from the thread and not handed them out yet. Call it again then,
+  /// without waiting for the descriptor.
   bool has_left_over() const { return !taken_.empty(); }
 
-  /// Hands out up to `maximum` of the messages that have arrived, without waiting for any. Returns their
-  /// number. What the handler throws leaves this function, too; that message counts as handed out.
+  /// Calls the handler for up to `maximum` messages that have arrived, without waiting for any. Returns their
+  /// number. If the handler throws, so does this function, and the message counts as handed out.
   int HandOut(const BusEventHandler& handler, int maximum);
 
+  /// The traffic that could not be assembled so far.
   UnheardTraffic unheard() const;
 
  private:
@@ -65,21 +68,21 @@ class MulticastListener {
   void Listen(const std::stop_token& stop);
   void Take(const ReceivedDatagram& received);
 
-  MulticastSocket socket_;  // of the thread
-  MessageAssembler assembler_;
+  MulticastSocket socket_;      // used by the listening thread only
+  MessageAssembler assembler_;  // used by the listening thread only
 
-  std::deque<Arrived> taken_;  // for HandOut
+  std::deque<Arrived> taken_;  // taken from arrived_ by HandOut and not handed out yet
   int64_t handed_out_ = 0;
 
   EventDescriptor arrival_;
   EventDescriptor end_;
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards arrived_, arrived_bytes_ and unheard_
   std::condition_variable_any room_;
   std::deque<Arrived> arrived_;
   size_t arrived_bytes_ = 0;
   UnheardTraffic unheard_;
 
-  std::jthread thread_;  // ends first
+  std::jthread thread_;  // last member, so that the thread ends before the others are destroyed
 };
 
 }  // namespace fresco

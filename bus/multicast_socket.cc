@@ -49,7 +49,8 @@ MulticastSocket::MulticastSocket(const MulticastEndpoint& endpoint) : MulticastS
   address.sin_port = htons(endpoint.port);
   inet_pton(AF_INET, endpoint.group.c_str(), &address.sin_addr);
   const ip_mreq membership{.imr_multiaddr = address.sin_addr, .imr_interface = {htonl(INADDR_ANY)}};
-  // Several programs share the port; the kernel may grant a smaller buffer.
+  // The kernel may grant a smaller buffer, so that result is ignored. SO_REUSEADDR lets programs share the
+  // port.
   SetOption(socket_, SOL_SOCKET, SO_RCVBUF, endpoint.receive_buffer_bytes);
   SetOption(socket_, SOL_SOCKET, SO_TIMESTAMP, 1);
   expect(SetOption(socket_, SOL_SOCKET, SO_REUSEADDR, 1), "SO_REUSEADDR");

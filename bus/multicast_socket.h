@@ -1,4 +1,5 @@
-// A socket that receives what is sent to a multicast group, as LCM's own does. Used by one thread.
+// A socket that receives the datagrams sent to a multicast group, as LCM's own socket does. MulticastListener
+// owns one. Only one thread may use it.
 #pragma once
 
 #include <netinet/in.h>
@@ -16,11 +17,11 @@
 
 namespace fresco {
 
-/// What to do if a multicast group can't be joined.
+/// What to do if a multicast group can't be joined, for an error's text.
 inline constexpr char kMulticastRemedy[] =
-    "most likely no route covers multicast; as root: ip route add 224.0.0.0/4 dev lo (as another user: "
-    "unshare "
-    "-Urn, then the same inside, after ip link set lo up), or the port is taken by another program";
+    "most likely there is no route for multicast, or another program has taken the port; to add a "
+    "route, run as root: ip route add 224.0.0.0/4 dev lo (without root: run unshare -Urn, and in its "
+    "shell ip link set lo up and then the same command)";
 
 /// `datagram` is valid during the call only.
 struct ReceivedDatagram {
@@ -31,8 +32,8 @@ struct ReceivedDatagram {
 
 class MulticastSocket {
  public:
-  /// From here on the kernel keeps what arrives. Throws UsageError, saying what to do, if the group can't be
-  /// joined.
+  /// Joins the group; from now on the kernel keeps arriving datagrams. Throws UsageError that says what to do
+  /// if the group can't be joined.
   explicit MulticastSocket(const MulticastEndpoint& endpoint);
   ~MulticastSocket();
   MulticastSocket(const MulticastSocket&) = delete;
@@ -40,14 +41,14 @@ class MulticastSocket {
 
   int descriptor() const { return socket_; }
 
-  /// Calls `take` for each of the datagrams that have arrived, a batch of them at most. Waits for none.
+  /// Calls `take` for each datagram that has arrived, but at most for one batch. Does not wait.
   void Receive(const std::function<void(const ReceivedDatagram&)>& take);
 
  private:
   static constexpr size_t kBatchDatagrams = 32;
-  static constexpr size_t kDatagramBytes = 65'536;  // UDP has no larger one
+  static constexpr size_t kDatagramBytes = 65'536;  // the largest UDP datagram
 
-  /// Room for a datagram and for what the kernel says of it.
+  /// Buffers for a datagram, its sender and its time of arrival.
   struct Slot {
     std::array<std::byte, kDatagramBytes> datagram;
     iovec datagram_vector;
@@ -59,7 +60,7 @@ class MulticastSocket {
 
   int socket_;
   std::vector<Slot> slots_;
-  std::vector<mmsghdr> headers_;  // of the slots
+  std::vector<mmsghdr> headers_;  // they point into slots_
 };
 
 }  // namespace fresco

@@ -9,7 +9,7 @@ namespace fresco {
 std::unique_ptr<Bus> OpenBus(const std::string& url, const BusOptions& options) {
   std::optional<AuthenticationKey> key;
   if (options.key_file) {
-    key = ReadAuthenticationKey(*options.key_file);  // before anything is heard
+    key = ReadAuthenticationKey(*options.key_file);  // before anything is received
   }
   std::unique_ptr<Bus> bus = OpenLcmBus(url);
   if (options.disturbance) {

@@ -1,5 +1,5 @@
-// The bus of a program: LCM, and what the command line puts around it. None of this is part of an
-// experiment's configuration, which is broadcast.
+// Opens the bus of a program: LCM, wrapped as the command line says. These options are not part of an
+// experiment's configuration, since that is sent to everybody.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,13 @@
 namespace fresco {
 
 struct BusOptions {
-  KeyFile key_file = {};                        ///< messages are authenticated with its key
-  std::optional<LossOptions> disturbance = {};  ///< of what is sent; for tests and soak runs
+  KeyFile key_file = {};                        ///< if set, messages are authenticated with this key
+  std::optional<LossOptions> disturbance = {};  ///< if set, sent messages are disturbed; for tests and soak
+                                                ///< runs
 };
 
-/// Throws UsageError as OpenLcmBus does, and where the key file can't be used.
+/// Opens the bus. Any thread may call it. Throws UsageError as OpenLcmBus does, and if the key file can't be
+/// used.
 std::unique_ptr<Bus> OpenBus(const std::string& url, const BusOptions& options);
 
 }  // namespace fresco

@@ -21,7 +21,7 @@
 namespace fresco {
 namespace {
 
-constexpr uint32_t kUdpHeaderBytes = 8;  // a UDP socket's filter sees it, too
+constexpr uint32_t kUdpHeaderBytes = 8;  // the filter of a UDP socket sees the UDP header, too
 constexpr uint32_t kChannelAt = kUdpHeaderBytes + kWholeMessageHeaderBytes;
 constexpr uint32_t kAllBytes = 0xFFFFFFFF;
 
@@ -41,7 +41,7 @@ std::vector<int> OpenDescriptors() {
   return descriptors;
 }
 
-/// Of an IPv4 datagram socket.
+/// The local port, if this is an IPv4 datagram socket.
 std::optional<uint16_t> BoundPort(int descriptor) {
   int type = 0;
   socklen_t type_bytes = sizeof(type);
@@ -67,7 +67,7 @@ std::vector<int> SocketsOnPort(uint16_t port) {
 
 using Instructions = std::vector<sock_filter>;
 
-/// A load, and what it has to load.
+/// An instruction that loads some bytes, and the value that these must have.
 struct Load {
   uint16_t size_code;
   uint32_t bytes;
@@ -84,13 +84,14 @@ Load LargestLoad(std::span<const std::byte> of) {
   return {BPF_B, sizeof(uint8_t), ReadBigEndian<uint8_t>(of.data())};
 }
 
-/// Ends the program with everything passing where the channel, with its end, stands at its place; goes on
-/// behind where it does not. Few loads: the kernel makes a dozen instructions of each and has little room
-/// (net.core.optmem_max).
+/// Appends instructions that let the datagram pass if it is on this channel, and otherwise continue behind
+/// them. Uses as few loads as possible, since the kernel turns each into a dozen instructions and has little
+/// memory for them (net.core.optmem_max).
 void AddChannel(const std::string& channel, Instructions& program) {
   const auto ended = std::as_bytes(std::span(channel.c_str(), channel.size() + 1));
   Instructions block;
-  block.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0));  // a load behind the datagram's end would drop it
+  block.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0));  // checked first: a load beyond the end drops the
+                                                           // datagram
   block.push_back(
       BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, kChannelAt + static_cast<uint32_t>(ended.size()), 0, 0));
   for (uint32_t i = 0; i < ended.size();) {
@@ -100,7 +101,8 @@ void AddChannel(const std::string& channel, Instructions& program) {
     i += load.bytes;
   }
   block.push_back(BPF_STMT(BPF_RET | BPF_K, kAllBytes));
-  // Where a comparison fails, on behind the block: 64 bytes make 35 instructions, a jump's reach is 255.
+  // If a comparison fails, jump behind the block. That is near enough: 64 bytes make 35 instructions, and a
+  // jump reaches 255.
   for (size_t i = 0; i < block.size(); ++i) {
     if (BPF_CLASS(block[i].code) == BPF_JMP) {
       block[i].jf = static_cast<uint8_t>(block.size() - i - 1);
@@ -141,7 +143,7 @@ void ReceiveFilter::Pass(const std::string& channel) {
 void ReceiveFilter::Attach() const {
   const sock_filter drop = BPF_STMT(BPF_RET | BPF_K, 0);
   Instructions instructions = {
-      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeaderBytes),  // shorter ones end here, dropped
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeaderBytes),  // drops datagrams that are too short for this
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kWholeMessageMagic, 1, 0), drop};
   for (const std::string& channel : channels_) {
     AddChannel(channel, instructions);
@@ -150,7 +152,7 @@ void ReceiveFilter::Attach() const {
   const sock_fprog program = {static_cast<uint16_t>(instructions.size()), instructions.data()};
   if (setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof(program)) != 0) {
     throw Failure(fmt::format(
-        "can't filter what LCM receives, {} channels: expected a kernel that takes socket filters "
+        "can't attach a filter for {} channels to LCM's socket: expected a kernel that takes socket filters "
         "of {} instructions (SO_ATTACH_FILTER), found: {}{}",
         channels_.size(), instructions.size(), std::strerror(errno),
         errno == ENOMEM ? "; raise it with: sysctl net.core.optmem_max=131072" : ""));

@@ -1,9 +1,9 @@
-// Keeps from a process whatever LCM would read wrongly or for nothing. LCM 1.3.1 writes outside its memory
-// where the header of a fragment ("LC03") lies, joins fragments to messages of up to 256 MiB, and remembers
-// every channel name that it ever saw. Fresco's messages are one datagram each, on channels that are known.
-// Who hears all channels does so without LCM (bus/multicast_listener.h).
+// A kernel filter that lets LCM receive only whole messages of subscribed channels. It is needed because LCM
+// 1.3.1 writes outside its memory if the header of a fragment ("LC03") is forged, joins fragments to messages
+// of up to 256 MiB, and remembers every channel name that it ever saw. All of Fresco's messages fit one
+// datagram. Programs that receive all channels do not use LCM for it (bus/multicast_listener.h).
 //
-// Used by one thread, while LCM's own reads from the socket.
+// One thread may use a filter; LCM's own thread may read the socket at the same time.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,25 @@
 
 namespace fresco {
 
-/// To be held while a socket that receives from a bus is opened or closed.
+/// The mutex to hold while opening or closing a socket that receives from a bus, so that SocketOpenedBy sees
+/// only one new socket.
 std::mutex& ReceivingSockets();
 
-/// Calls `open` and returns the socket on the UDP port `port` that it opened: LCM does not tell which one is
-/// its own. Throws what `open` throws, and Failure if there is not exactly one or /proc/self/fd can't be
-/// read.
+/// Calls `open` and returns the socket on UDP port `port` that it opened. LCM does not say which socket is
+/// its own, so this compares the process's sockets before and after. Throws what `open` throws, and Failure
+/// if there is not exactly one new socket or /proc/self/fd can't be read.
 int SocketOpenedBy(const std::function<void()>& open, uint16_t port);
 
-/// What the kernel hands to one UDP socket that LCM reads; the rest it drops, and counts with the datagrams
-/// that found no room (/proc/net/udp). All throw Failure where the kernel refuses.
+/// The filter of one UDP socket that LCM reads. The kernel drops all other datagrams, and counts them
+/// together with those that found the buffer full (/proc/net/udp). Both functions throw Failure if the kernel
+/// refuses the filter.
 class ReceiveFilter {
  public:
-  /// From now on nothing passes. `socket` stays open for longer than the filter is used.
+  /// From now on no datagram passes. `socket` must stay open while the filter is used.
   explicit ReceiveFilter(int socket);
 
-  /// Whole messages ("LC02") of exactly this channel pass, too. A name that LCM can have: up to 63 bytes, no
-  /// zero.
+  /// From now on whole messages ("LC02") of exactly this channel pass, too. `channel` has at most 63 bytes
+  /// and no zero byte.
   void Pass(const std::string& channel);
 
  private:

@@ -68,7 +68,7 @@ TrainerOutput LearnerProcess::Output() {
   return output;
 }
 
-/// Another run on the same channels would share actors and bandwidth: say so before starting.
+/// Throws UsageError if another learner is on the same channels: the two would share actors and bandwidth.
 void LearnerProcess::RefuseTakenBus() {
   const int64_t until_us = MonotonicMicroseconds() + kFreeBusUs;
   while (MonotonicMicroseconds() < until_us && node_.foreign_run() == 0 && !StopSignal::Requested()) {
@@ -112,9 +112,9 @@ void LearnerProcess::BeginTraining() {
   if (trainer_.best()) {
     folder_.WriteBest(*trainer_.best());
   }
-  spdlog::info("going on after {} episodes and {} updates", trainer_.progress().episodes,
+  spdlog::info("continuing after {} episodes and {} updates", trainer_.progress().episodes,
                trainer_.progress().updates);
-  options_.checkpoint.reset();  // its memory
+  options_.checkpoint.reset();  // frees its memory
 }
 
 void LearnerProcess::Train() {
@@ -134,14 +134,14 @@ void LearnerProcess::Train() {
   Report();
 }
 
-/// Whether it has waited for a result for longer than anybody should.
+/// Whether no result has arrived for run.patience_s. Logs an error if so.
 bool LearnerProcess::GivesUp() const {
   const double patience_s = experiment_.run().patience_s();
   const bool starved = patience_s > 0 && node_.StarvedSeconds() >= patience_s;
   if (starved) {
     spdlog::error(
-        "giving up: {:.0f} s without a result (run.patience_s), waiting for {}; go on with: train --resume "
-        "{}",
+        "giving up: no result for {:.0f} s (run.patience_s), waiting for {}; continue the run with: train "
+        "--resume {}",
         patience_s, node_.WaitingFor(), options_.folder.string());
   }
   return starved;
@@ -169,16 +169,16 @@ void LearnerProcess::WriteCheckpoint() {
   checkpoints_.longest_pause_us = std::max(checkpoints_.longest_pause_us, MonotonicMicroseconds() - begin_us);
 }
 
-/// The search may outlast a short training; a run that did not come to its end does not wait for it. If the
-/// program is asked to stop while it waits, the training is complete all the same. The checkpoint of its end
-/// lets the search be gone on with.
+/// Waits until the search for the optimum ends, which may take longer than a short training. If the training
+/// was interrupted, stops the search at once. If the program is asked to stop during the wait, the training
+/// still counts as complete, and a checkpoint of its end is written so that --resume can continue the search.
 void LearnerProcess::WaitForOptimum() {
   constexpr int64_t kReportUs = 200'000;
   if (trainer_.finished()) {
     optimum_->TakeFullPriority();
   }
   while (trainer_.finished() && !StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
-    node_.SetFinishing(fmt::format("the proof of the exact optimum: {:.0f} s of processor time more at most",
+    node_.SetFinishing(fmt::format("the proof of the exact optimum: at most {:.0f} s more of processor time",
                                    optimum_->processor_seconds_left()));
     Report();
   }

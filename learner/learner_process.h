@@ -1,5 +1,6 @@
-// One run of a learner from its first order, or from a checkpoint, to its summary: the training thread
-// that calls Run, a network thread beside it, a thread that writes files, and the search for the optimum.
+// Runs a learner from its first order, or from a checkpoint, to its summary. The thread that calls Run
+// trains. The object starts three more threads: one for the bus, one that writes files, and one that searches
+// for the exact optimum. Construct it and call Run on the same thread.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +18,22 @@
 namespace fresco {
 
 struct LearnerOptions {
-  std::filesystem::path folder;
-  int64_t run_id = 0;
-  RunFolder::Use use = RunFolder::Use::kNewRun;
-  std::optional<Checkpoint> checkpoint = {};  ///< to go on from; none: from the beginning
+  std::filesystem::path folder;                  ///< the run's folder; it exists
+  int64_t run_id = 0;                            ///< never 0
+  RunFolder::Use use = RunFolder::Use::kNewRun;  ///< whether the folder is new or is resumed
+  std::optional<Checkpoint> checkpoint = {};     ///< where to continue; none: begin with the first order
 };
 
 class LearnerProcess {
  public:
-  /// Takes the run's folder and subscribes. `bus` must outlive the process.
+  /// Opens the run's folder and subscribes on `bus`, which must outlive the object. Throws as RunFolder and
+  /// Bus::Subscribe do.
   LearnerProcess(const Experiment& experiment, Bus& bus, LearnerOptions options);
 
-  /// Returns whether the training was completed; otherwise it was interrupted, by a signal or for want of
-  /// episodes. Results are written in any case, and a checkpoint if the training or the search for the
-  /// optimum was cut short.
+  /// Trains and writes the results. Returns true if the training was completed, false if it was interrupted
+  /// by a signal or gave up because no result arrived for run.patience_s. Writes a checkpoint if the training
+  /// or the search for the optimum was interrupted. Throws UsageError if another learner is on the same
+  /// channels, and Failure if the results can't be written.
   bool Run();
 
  private:
@@ -55,11 +58,11 @@ class LearnerProcess {
   Trainer trainer_;
   RunFolder folder_;
   int resumptions_ = 0;
-  std::optional<OptimumSearch> optimum_;  // from the run's beginning
-  std::exception_ptr network_error_;
+  std::optional<OptimumSearch> optimum_;  // set by Run
+  std::exception_ptr network_error_;      // what the network thread threw; Run throws it again
   int64_t begin_us_ = 0;
-  double wall_before_s_ = 0;  // of the training before it was resumed
-  double wall_s_ = 0;         // of the training
+  double wall_before_s_ = 0;  // wall time of the training before it was resumed
+  double wall_s_ = 0;         // wall time of the whole training, once it has ended
   int64_t next_checkpoint_us_ = 0;
   CheckpointFigures checkpoints_;
 };

@@ -1,4 +1,4 @@
-// fresco-learner: the learner process of one run; see learner/learner_process.h.
+// The program fresco-learner: the learner process of one run; see learner/learner_process.h.
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -43,9 +43,9 @@ int64_t RunIdFrom(const Arguments& arguments) {
 
 int RunAnew(const Arguments& arguments, const Settings& settings) {
   if (arguments.out.empty()) {
-    throw UsageError("--out: name the run's folder (or --resume one)");
+    throw UsageError("--out: expected the run's folder, found none; give --out DIR, or --resume DIR");
   }
-  // All checks before the folder is made: wrong use leaves nothing behind.
+  // Check everything before making the folder, so that wrong use leaves nothing behind.
   const Experiment experiment = Experiment::Load(ExperimentPath(arguments.config), settings);
   RefuseIfTooLarge({LearnerMemory(experiment)}, ReadAvailableMemory());
   const int64_t run_id = RunIdFrom(arguments);
@@ -78,11 +78,10 @@ int Main(int argc, char** argv) {
   app.add_option("--set", arguments.settings, "Overrides one field: path=value; may be repeated");
   app.add_option("--lcm-url", arguments.lcm_url, "Overrides run.lcm_url");
   CLI::Option* out = app.add_option("--out", arguments.out, "The run's folder");
-  app.add_option("--resume", arguments.resume,
-                 "Go on with the run in this folder, from its latest checkpoint")
+  app.add_option("--resume", arguments.resume, "Continue the run in this folder from its latest checkpoint")
       ->excludes(config)
       ->excludes(out);
-  app.add_option("--run-id", arguments.run_id, "Name of the run (16 hexadecimal digits); default: drawn");
+  app.add_option("--run-id", arguments.run_id, "Id of the run (16 hexadecimal digits); default: a random id");
   AddBusOptions(app, arguments.bus);
   if (!ParseCommandLine(app, argc, argv)) {
     return 0;

@@ -8,9 +8,9 @@
 namespace fresco {
 namespace {
 
-constexpr int64_t kSoonestLateUs = 150'000;
-constexpr double kLateFactor = 4;  // late: several times the usual latency
-constexpr int kLongestPatience = 8;
+constexpr int64_t kSoonestLateUs = 150'000;  // no order is late before
+constexpr double kLateFactor = 4;            // an order is late after so many times the usual latency
+constexpr int kLongestPatience = 8;          // each attempt may take longer, up to this factor
 constexpr int32_t kLargestCapacity = 4096;
 
 }  // namespace
@@ -34,7 +34,8 @@ Roster::Hearing Roster::Hear(const actor_status_t& status, int64_t now_us) {
   return Hearing::kHeard;
 }
 
-/// Who is gone is remembered, so that its old statuses stay old; but not at the cost of who comes.
+/// Returns whether there is room for a new actor; forgets the longest gone one if need be. An actor that is
+/// gone is otherwise remembered, so that repeated statuses of it are still known to be stale.
 bool Roster::MakeRoom(int64_t now_us) {
   if (actors_.size() < kMaximumActors) {
     return true;
@@ -89,7 +90,7 @@ int64_t Roster::Choose(int64_t except, int64_t now_us) const {
       continue;
     }
     const auto open = open_orders_.find(id);
-    // Who owes results gets less, but is never left out: it is slow, or its way to us is.
+    // An actor that owes late results gets fewer orders, but still some: it or its network may just be slow.
     const int orders = (open == open_orders_.end() ? 0 : open->second) + actor.late_orders;
     const std::pair load(static_cast<double>(orders) / actor.capacity, actor.last_assigned);
     if (best == 0 || load < best_load) {

@@ -1,4 +1,4 @@
-// What the roster tells people: who is awaited, and at which stage a result is.
+// The part of Roster that writes texts for people: which actor is awaited, and what it is doing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::string NameOf(const ActorRecord& actor) {
   return fmt::format("{} (pid {})", actor.host, actor.pid);
 }
 
-/// "; it lacks current network 7 (3 chunks missing)" as the actor's last status says; empty: nothing.
+/// "; it lacks current network 7 (3 chunks missing)", by the actor's last status; empty if it lacks nothing.
 std::string LackedNetworks(const ActorRecord& actor, const Order& order) {
   int64_t missing_of[2] = {0, 0};  // by kind
   for (const chunk_range_t& range : actor.missing) {
@@ -79,7 +79,7 @@ std::string Roster::StateText(int64_t now_us) const {
   size_t lines = 0;
   for (const auto& [id, actor] : actors_) {
     if (++lines > kLongestList) {
-      return text + fmt::format("\n  and {} actors more", actors_.size() - kLongestList);
+      return text + fmt::format("\n  and {} more actors", actors_.size() - kLongestList);
     }
     const std::string flies = orders.contains(id) ? "orders" + orders.at(id) : "no order";
     text += fmt::format("\n  actor {:016x} {}: heard of {:.1f} s ago, {:.0f} transitions/s, {} late, {}",

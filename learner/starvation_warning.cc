@@ -8,7 +8,7 @@ std::optional<std::string> StarvationWarning::Note(double starved_s, const std::
   std::optional<std::string> line;
   if (starved_s < last_s_) {
     if (next_s_ > kFirstS) {
-      line = fmt::format("a result arrived after {:.0f} s; the run goes on", last_s_);
+      line = fmt::format("a result arrived after {:.0f} s; the run continues", last_s_);
     }
     next_s_ = kFirstS;
   } else if (starved_s > next_s_) {

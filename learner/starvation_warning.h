@@ -1,5 +1,5 @@
-// When a learner that waits for a result has to say so in its log: silence is never a hang. Says what to
-// write; writing is the caller's. Used by one thread.
+// Decides when a learner that waits for a result writes a line to its log, so that a silent log never means a
+// hang. Returns the line; the caller writes it. LearnerNode owns it and uses it on its network thread only.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,9 @@ namespace fresco {
 
 class StarvationWarning {
  public:
-  /// Told again and again how long the learner has waited and for what. Returns a line for the log: after
-  /// five seconds, then every ten, and when it goes on.
+  /// Call this often, with how long the learner has waited (0 if it does not wait) and for what. Returns a
+  /// line for the log after five seconds of waiting, then every ten seconds, and when a result has arrived
+  /// after that.
   std::optional<std::string> Note(double starved_s, const std::string& waiting_for);
 
  private:

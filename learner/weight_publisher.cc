@@ -8,6 +8,7 @@
 #include "msgs/protocol_times.h"
 
 namespace fresco {
+
 int64_t WeightPublisher::BytesPerVersion(int64_t parameters) {
   const auto of_chunk = static_cast<int64_t>(sizeof(decltype(Version::due)::value_type) +
                                              sizeof(decltype(Version::sent_us)::value_type));

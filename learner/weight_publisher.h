@@ -1,5 +1,6 @@
-// Which chunks of which network versions are to be sent: each new version once, and again what
-// actors report missing. Says what to send next; pacing and sending are the caller's. Not thread-safe.
+// Decides which chunks of which network versions to send next: every chunk of a new version once, and chunks
+// that actors report missing once more. The caller paces and sends them. All times are monotonic
+// microseconds. LearnerNode owns it. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +18,28 @@ namespace fresco {
 
 class WeightPublisher {
  public:
-  /// What a version takes of memory beside its parameters.
+  /// The memory of a version without its parameters, bytes.
   static int64_t BytesPerVersion(int64_t parameters);
 
-  /// Offers a version; all its chunks are due.
+  /// Adds a version, all of whose chunks are then due.
   void Offer(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
 
-  /// Drops versions older than those that any order can still name.
+  /// Drops the versions of the two networks that are older than these: no order can name them any more.
   void Retain(int32_t oldest_current, int32_t oldest_target);
 
-  /// An actor lacks these chunks: those that were not sent within the last `kAnswerAgainUs` are due
-  /// again, once, however many ask. Unknown versions and chunks are ignored.
+  /// Makes these chunks due again, since an actor lacks them. A chunk that was sent within the last 6 ms is
+  /// left out, and a chunk that is due already stays due once, however many actors ask. Ignores unknown
+  /// versions and chunks.
   void Request(const chunk_range_t& range, int64_t now_us);
 
-  /// The next due chunk, without its identity, and of which network; none: nothing is due.
+  /// Returns the next due chunk and its network, and counts the chunk as sent; nullopt if nothing is due. The
+  /// caller fills in `utime`, `run_id` and `config_hash`.
   std::optional<std::pair<NetworkKind, weights_t>> Next(int64_t now_us);
 
-  /// For people: which versions are on offer, and how many of their chunks are due.
+  /// A text for people: the versions on offer, and how many of their chunks are due.
   std::string Offered() const;
 
-  /// Chunks sent, and those of them that were asked for.
+  /// The number of chunks sent, and how many of these were sent again because an actor asked.
   int64_t sent_chunks() const { return sent_chunks_; }
   int64_t repeated_chunks() const { return repeated_chunks_; }
 
@@ -47,7 +50,7 @@ class WeightPublisher {
     std::vector<uint8_t> due;      // by chunk
     std::vector<int64_t> sent_us;  // by chunk; 0: never
     int due_count = 0;
-    int next = 0;  // where to look for the next due chunk
+    int next = 0;  // number of the chunk where the search for the next due one begins
   };
 
   std::map<std::pair<int32_t, NetworkKind>, Version> versions_;  // oldest first

@@ -22,17 +22,17 @@ std::string BusLossText(const Bus& bus) {
 void WarnOfBusLosses(const Bus& bus) {
   if (const int64_t lost = DroppedDatagrams(); lost > 0) {
     spdlog::warn(
-        "{} packets were lost before this program saw them: its receive buffer was full (recv_buf_size in "
-        "the URL is granted up to the sysctl net.core.rmem_max)",
+        "{} packets were lost before this program saw them, since its receive buffer was full; raise "
+        "recv_buf_size in the URL (the sysctl net.core.rmem_max limits it)",
         lost);
   }
   const UnheardTraffic unheard = bus.unheard();
   if (unheard.refused_packets > 0) {
-    spdlog::warn("{} packets were refused: they are not LCM's, or damaged, or contradict others",
+    spdlog::warn("{} packets were refused: they are not LCM's, are damaged, or contradict others",
                  unheard.refused_packets);
   }
   if (unheard.incomplete_messages > 0) {
-    spdlog::warn("{} messages of several packets are left out: not all of their packets arrived",
+    spdlog::warn("{} messages of several packets are missing: not all of their packets arrived",
                  unheard.incomplete_messages);
   }
 }

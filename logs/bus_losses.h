@@ -1,4 +1,5 @@
-// What a bus that hears all channels did not hand out, in words.
+// Reports in words what a bus that receives all channels could not hand out. Call the functions on the thread
+// that polls the bus.
 #pragma once
 
 #include <string>
@@ -7,10 +8,11 @@
 
 namespace fresco {
 
-/// For example ", 3 packets LOST, 2 packets REFUSED, 1 messages INCOMPLETE"; empty if there was nothing.
+/// Returns for example ", 3 packets LOST, 2 packets REFUSED, 1 messages INCOMPLETE"; empty if nothing was
+/// lost.
 std::string BusLossText(const Bus& bus);
 
-/// Says on standard error what was lost, why, and what to do.
+/// Logs a warning for each kind of loss: what was lost, why, and what to do.
 void WarnOfBusLosses(const Bus& bus);
 
 }  // namespace fresco

@@ -22,7 +22,7 @@ ChannelFilter::ChannelFilter(const std::vector<std::string>& expressions, const 
 }
 
 bool ChannelFilter::Matches(std::string_view channel) {
-  constexpr size_t kMaximumKnown = 4096;  // names come from the network
+  constexpr size_t kMaximumKnown = 4096;  // a limit, since anybody may send names
   if (lets_all_through()) {
     return true;
   }

@@ -1,5 +1,5 @@
-// Which channels somebody wants, as regular expressions that have to match a channel's whole name, as LCM
-// reads them. An object belongs to one thread.
+// Selects channels by regular expressions, which must match a channel's whole name, as in LCM. Only one
+// thread may use an object.
 #pragma once
 
 #include <map>
@@ -12,10 +12,11 @@ namespace fresco {
 
 class ChannelFilter {
  public:
-  /// Lets every channel through.
+  /// Selects every channel.
   ChannelFilter() = default;
-  /// Lets those through that match one of the expressions; all, where there is none. `option` names the
-  /// origin in the UsageError for what is no regular expression.
+  /// Selects the channels that match one of the expressions; every channel if there are no expressions.
+  /// Throws UsageError if one is not a regular expression; the error names `option`, the command line option
+  /// it came from.
   ChannelFilter(const std::vector<std::string>& expressions, const std::string& option);
 
   bool Matches(std::string_view channel);
@@ -23,7 +24,7 @@ class ChannelFilter {
 
  private:
   std::vector<std::regex> expressions_;
-  std::map<std::string, bool, std::less<>> known_;
+  std::map<std::string, bool, std::less<>> known_;  // results for names that came before
 };
 
 }  // namespace fresco

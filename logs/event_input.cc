@@ -17,13 +17,13 @@ void AddEventInput(CLI::App& app, EventInputOptions& options) {
   app.add_option("--channel", selection.channels,
                  "Only channels that match this regular expression; may be repeated");
   app.add_option("--drop", selection.dropped,
-                 "No channels that match this regular expression; may be repeated");
-  app.add_option("--start", selection.start_s, "From so many seconds after the first event on")
+                 "Leave out channels that match this regular expression; may be repeated");
+  app.add_option("--start", selection.start_s, "Only events at least so many seconds after the first one")
       ->check(CLI::Range(0.0, 1e12));
-  app.add_option("--stop", selection.stop_s, "Up to so many seconds after the first event")
+  app.add_option("--stop", selection.stop_s, "Only events less than so many seconds after the first one")
       ->check(CLI::Range(0.0, 1e12));
   app.add_option("--run", selection.run,
-                 "No Fresco message of another run than this (run_id of summary.json)");
+                 "Leave out Fresco's messages of other runs than this one (run_id of summary.json)");
 }
 
 EventInput::EventInput(const EventInputOptions& options)
@@ -33,7 +33,7 @@ EventInput::EventInput(const EventInputOptions& options)
 
 MergedEventLogs::Totals EventInput::ForEach(const std::function<void(const LcmEvent& event)>& handle) {
   constexpr int64_t kEventsPerLook = 4096;
-  constexpr int64_t kQuietUs = 1'000'000;  // what is done by then needs no line
+  constexpr int64_t kQuietUs = 1'000'000;  // no progress is shown before
   const int64_t line_from_us = MonotonicMicroseconds() + kQuietUs;
   LiveLine line(!is_live_);
   int64_t events = 0;

@@ -1,4 +1,4 @@
-// What every subcommand of `fresco log` that reads does: its options, and the pass through the events.
+// The options of the subcommands of `fresco log` that read events, and the loop over the events.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,24 +15,25 @@
 namespace fresco {
 
 struct EventInputOptions {
-  std::vector<std::string> sources;  ///< as OpenEvents has them
-  double seconds = 0;                ///< of listening, where the source is a URL
+  std::vector<std::string> sources;  ///< paths of logs, or one LCM URL; see OpenEvents
+  double seconds = 0;                ///< how long to listen to a URL; 0: until the program is asked to stop
   SelectionOptions selection;
 };
 
-/// Adds LOG..., --seconds, --channel, --drop, --start, --stop and --run; `options` must outlive the parsing.
+/// Adds LOG..., --seconds, --channel, --drop, --start, --stop and --run, whose values parsing writes to
+/// `options`.
 void AddEventInput(CLI::App& app, EventInputOptions& options);
 
-/// One pass through the events. Belongs to one thread.
+/// One pass through the events. Only one thread may use an object.
 class EventInput {
  public:
-  /// Checks the options and opens the sources, so that a subcommand makes its output only after that. Throws
-  /// UsageError.
+  /// Checks the options and opens the sources. A subcommand makes its output after that, so wrong use leaves
+  /// nothing behind. Throws UsageError.
   explicit EventInput(const EventInputOptions& options);
 
-  /// Calls `handle` for every event that is wanted, in order, and shows on standard error how far it is; says
-  /// there at the end what was damaged, cut or lost. Throws Failure if the program is interrupted while it
-  /// reads logs.
+  /// Calls `handle` for every selected event, in order. Shows progress on standard error, and at the end
+  /// warns there of damaged, cut or lost events. Throws Failure if the program is interrupted while it reads
+  /// logs.
   MergedEventLogs::Totals ForEach(const std::function<void(const LcmEvent& event)>& handle);
 
  private:

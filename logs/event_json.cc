@@ -42,7 +42,7 @@ template <class Message>
 OrderedJson JsonOf(const Message& message) {
   OrderedJson json = OrderedJson::object();
   ForEachField(message, [&json](const char* name, const auto& value) {
-    if constexpr (std::is_same_v<decltype(value), const std::vector<uint8_t>&>) {  // a piece of text
+    if constexpr (std::is_same_v<decltype(value), const std::vector<uint8_t>&>) {  // part of a text
       json[name] = std::string(value.begin(), value.end());
     } else {
       json[name] = JsonOfField(name, value);
@@ -75,7 +75,7 @@ std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
     json["bytes"] = event.message.size();
     json["fingerprint"] = FirstBytes(event.message);
   }
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);  // texts come from the network
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);  // texts may be no valid UTF-8
 }
 
 }  // namespace fresco

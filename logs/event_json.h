@@ -1,4 +1,5 @@
-// An event of the bus or of a log as one line of JSON, its message decoded. Pure.
+// Turns an event of a bus or a log into one line of JSON. A pure function; any thread may call it, each with
+// a decoder of its own.
 #pragma once
 
 #include <string>
@@ -8,9 +9,9 @@
 
 namespace fresco {
 
-/// {"utime", "channel", "type", "message": {every field}}; of a message that is damaged, and of one that is
-/// none of Fresco's (type null), its size and the eight bytes that it begins with instead. Without a line
-/// feed.
+/// Returns {"utime", "channel", "type", "message": {every field}}. If the message is damaged or not Fresco's
+/// (then the type is null), the object has the message's size in bytes and its first eight bytes instead of
+/// its fields. There is no line feed at the end.
 std::string EventJson(const LcmEvent& event, MessageDecoder& decoder);
 
 }  // namespace fresco

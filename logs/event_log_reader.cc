@@ -20,7 +20,7 @@ namespace {
 constexpr uint32_t kSyncWord = 0xEDA1DA01;
 constexpr size_t kSyncBytes = 4;
 constexpr size_t kBlockBytes = 1 << 20;
-// What LCM's own programs put up with.
+// The limits of LCM's own programs.
 constexpr int32_t kMaximumChannelBytes = 999;
 constexpr int32_t kMaximumMessageBytes = 1 << 28;
 
@@ -51,7 +51,7 @@ struct Header {
   bool begins_with_sync_word;
 };
 
-/// Where the first sync word begins; none: bytes.size().
+/// Returns the position of the first sync word; bytes.size() if there is none.
 size_t FindSyncWord(std::span<const std::byte> bytes) {
   static constexpr std::array<unsigned char, kSyncBytes> kWord = {0xED, 0xA1, 0xDA, 0x01};
   const void* found = memmem(bytes.data(), bytes.size(), kWord.data(), kWord.size());
@@ -69,8 +69,8 @@ EventLogReader::EventLogReader(std::filesystem::path path)
   try {
     if (!std::filesystem::is_regular_file(path_) || (Buffer(kSyncBytes) && !IsSyncWord(buffered().data()))) {
       throw UsageError(fmt::format(
-          "{}: expected an LCM event log, as lcm-logger and fresco log record write them; it does not begin "
-          "with their sync word, ED A1 DA 01",
+          "{}: expected an LCM event log, as lcm-logger and fresco log record write them; found a file that "
+          "does not begin with the sync word ED A1 DA 01",
           path_.string()));
     }
   } catch (...) {
@@ -111,7 +111,8 @@ LcmEvent EventLogReader::Take(size_t event_bytes, size_t channel_bytes) {
           event.subspan(kEventHeaderBytes + channel_bytes)};
 }
 
-/// Whether the length of the event at hand is damaged: behind it no event begins, but within it one does.
+/// Whether the length of the current event is damaged: no event begins behind its end, but one begins inside
+/// it.
 bool EventLogReader::SwallowsAnother(size_t event_bytes) {
   if (!Buffer(event_bytes + kSyncBytes) || IsSyncWord(buffered().data() + event_bytes)) {
     return false;
@@ -119,15 +120,15 @@ bool EventLogReader::SwallowsAnother(size_t event_bytes) {
   return HasWholeEvent(position_ + static_cast<int64_t>(event_bytes));
 }
 
-/// Whether an event begins behind the beginning of the one at hand, and before `end`, that is whole and has
-/// another or the file's end behind it: so that a message may contain the sync word.
+/// Whether a complete event begins between the beginning of the current one and `end`. Behind it there must
+/// be another event or the file's end, since a message may contain the bytes of a sync word.
 bool EventLogReader::HasWholeEvent(int64_t end) {
   if (whole_event_ > position_) {
     return whole_event_ < end;
   }
   int64_t offset = position_ + static_cast<int64_t>(kSyncBytes);
   std::vector<std::byte> block;
-  std::span<const std::byte> rest;  // of the block, from the offset on
+  std::span<const std::byte> rest;  // the part of the block from `offset` on
   while (offset < end) {
     if (rest.size() < kSyncBytes) {
       block.resize(std::min(kBlockBytes, static_cast<size_t>(end - offset) + kSyncBytes - 1));
@@ -159,13 +160,13 @@ bool EventLogReader::WholeEventBeginsAt(int64_t offset) const {
   return end == FileBytes() || (has_next && IsSyncWord(bytes.data()));
 }
 
-/// To the next sync word behind the one at hand.
+/// Skips to the next sync word behind the current one.
 void EventLogReader::SkipDamage() {
   size_t from = 1;
   while (true) {
     const size_t found = from + FindSyncWord(buffered().subspan(from));
     const bool is_there = found < buffered().size();
-    // The last bytes may be the beginning of a sync word.
+    // Keep the last bytes: they may be the beginning of a sync word.
     const size_t skipped = is_there ? found : buffered().size() - (kSyncBytes - 1);
     begin_ += skipped;
     position_ += static_cast<int64_t>(skipped);
@@ -181,7 +182,7 @@ std::span<const std::byte> EventLogReader::buffered() const {
   return std::span(block_).subspan(begin_, end_ - begin_);
 }
 
-/// Sees to it that this many bytes are buffered, if the file has them.
+/// Makes sure that this many bytes are buffered. Returns false if the file does not have as many.
 bool EventLogReader::Buffer(size_t bytes) {
   if (end_ - begin_ >= bytes) {
     return true;
@@ -198,7 +199,8 @@ bool EventLogReader::Buffer(size_t bytes) {
   return end_ >= bytes;
 }
 
-/// Fills `bytes` from the offset on, as far as the file goes; returns how many there were.
+/// Reads from `offset` into `bytes`. Returns the number of bytes read, which is smaller at the end of the
+/// file.
 size_t EventLogReader::ReadAt(int64_t offset, std::span<std::byte> bytes) const {
   size_t done = 0;
   while (done < bytes.size()) {

@@ -1,9 +1,9 @@
-// Reads one of LCM's event logs (the files of lcm-logger), event by event and in blocks: the memory does
-// not depend on the log's size. A log that was cut short is read to the cut; bytes in its midst that are no
-// event are skipped; both are counted. Belongs to one thread.
+// Reads an event log of LCM (a file of lcm-logger) event by event. It reads in blocks, so the memory does not
+// depend on the log's size. If the log was cut short, it reads all events before the cut. It skips damaged
+// bytes between events. It counts both. Only one thread may use an object.
 //
-// An event is, big-endian: the sync word 0xEDA1DA01, int64 number, int64 microseconds since the epoch,
-// int32 length of the channel's name, int32 length of the message, the name, the message.
+// The format of an event, big-endian: the sync word 0xEDA1DA01, int64 number, int64 microseconds since the
+// epoch, int32 length of the channel's name, int32 length of the message, the name, the message.
 #pragma once
 
 #include <cstdint>
@@ -18,23 +18,24 @@ namespace fresco {
 
 class EventLogReader {
  public:
-  /// Throws UsageError where the file can't be read, or where it does not begin as an event log does. A file
-  /// that is empty, or too short to tell, is a log without a whole event.
+  /// Opens the file. Throws UsageError if it can't be read or does not begin like an event log. A file that
+  /// is empty or shorter than a sync word counts as a log without events.
   explicit EventLogReader(std::filesystem::path path);
   ~EventLogReader();
   EventLogReader(const EventLogReader&) = delete;
   EventLogReader& operator=(const EventLogReader&) = delete;
 
-  /// The next whole event, valid until the next call; nullopt at the end, where a log that has grown goes on
-  /// with the call after. Throws Failure where the disk can't be read.
+  /// Returns the next complete event, valid until the next call; nullopt at the end. If the log has grown
+  /// since, the next call returns the next event. Throws Failure if the file can't be read.
   std::optional<LcmEvent> Next();
 
   const std::filesystem::path& path() const { return path_; }
-  /// Bytes from the file's beginning to the end of what Next has handed out or skipped.
+  /// The position in the file, bytes: behind the last event that Next returned, or behind damage that it
+  /// skipped.
   int64_t position() const { return position_; }
-  /// Bytes skipped so far that are no event.
+  /// The number of bytes skipped so far because they are damaged.
   int64_t damaged_bytes() const { return damaged_bytes_; }
-  /// Bytes of an event that ends beyond the file's end; known when Next has returned nullopt.
+  /// The number of bytes of an incomplete last event. Known after Next has returned nullopt.
   int64_t torn_bytes() const { return torn_bytes_; }
 
  private:
@@ -51,12 +52,12 @@ class EventLogReader {
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::vector<std::byte> block_;
-  size_t begin_ = 0;  // of what is buffered, in the block
+  size_t begin_ = 0;  // block_[begin_ .. end_ - 1] is buffered and not handed out yet
   size_t end_ = 0;
   int64_t position_ = 0;
   int64_t damaged_bytes_ = 0;
   int64_t torn_bytes_ = 0;
-  int64_t whole_event_ = -1;  // where HasWholeEvent has found one: it looks at no byte of damage twice
+  int64_t whole_event_ = -1;  // where HasWholeEvent found an event, so that it examines no damaged byte twice
 };
 
 }  // namespace fresco

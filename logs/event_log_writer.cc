@@ -27,7 +27,7 @@ class EventLogWriter::File {
     raw.channellen = static_cast<int32_t>(channel_.size());
     raw.channel = channel_.data();
     raw.datalen = static_cast<int32_t>(event.message.size());
-    raw.data = const_cast<std::byte*>(event.message.data());  // NOLINT: LCM's C does not write there
+    raw.data = const_cast<std::byte*>(event.message.data());  // NOLINT: LCM's C code only reads it
     return lcm_eventlog_write_event(log_.get(), &raw) == 0;
   }
 
@@ -76,8 +76,8 @@ void EventLogWriter::OpenNext() {
   }
   if (std::filesystem::exists(file_path_)) {
     throw UsageError(
-        fmt::format("{} is there already, and no log is written over: name another file, or move "
-                    "that one away",
+        fmt::format("{} exists already, and logs are never written over; name another file, or move that "
+                    "one away",
                     file_path_.string()));
   }
   file_ = std::make_unique<File>(file_path_);

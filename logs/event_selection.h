@@ -1,5 +1,5 @@
-// Which events of a log somebody wants: by time, channel and run. One meaning for every subcommand of
-// `fresco log`. An object belongs to one thread and one pass through the events.
+// Selects events by time, channel and run, in the same way for every subcommand of `fresco log`. Use a new
+// object for each pass through the events. Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@
 namespace fresco {
 
 struct SelectionOptions {
-  std::vector<std::string> channels = {};  ///< regular expressions; none: all
-  std::vector<std::string> dropped = {};   ///< channels that are left out, as regular expressions
-  double start_s = 0;                      ///< from the first event of all
-  double stop_s = std::numeric_limits<double>::infinity();
-  std::string run = {};  ///< sixteen hexadecimal digits, as summary.json has them; empty: all
+  std::vector<std::string> channels = {};  ///< regular expressions of channels to select; empty: all
+  std::vector<std::string> dropped = {};   ///< regular expressions of channels to leave out
+  double start_s = 0;                      ///< seconds after the first event, included
+  double stop_s = std::numeric_limits<double>::infinity();  ///< seconds after the first event, not included
+  std::string run = {};  ///< id of a run in hexadecimal digits, as in summary.json; empty: all
 };
 
 class EventSelection {
  public:
-  /// Throws UsageError naming the option that can't be understood.
+  /// Throws UsageError that names the option if its value is wrong.
   explicit EventSelection(const SelectionOptions& options);
 
-  /// Whether the event is wanted: start <= time < stop, its channel, and its run. What belongs to no run, an
-  /// actor without a run and every message that is none of Fresco's, is wanted with any. To be asked of every
-  /// event: times count from the first.
+  /// Whether the event is selected by its time (start <= time < stop), its channel and its run. Messages that
+  /// belong to no run (statuses of actors without a run, foreign messages) are selected whatever `run` is.
+  /// Call it for every event, since times count from the first one.
   bool Wants(const LcmEvent& event);
 
  private:

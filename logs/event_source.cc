@@ -26,10 +26,10 @@ class EventLogs : public EventSource {
   void WarnOfLosses() const override {
     const MergedEventLogs::Totals totals = logs_.totals();
     if (totals.damaged_bytes > 0) {
-      spdlog::warn("damaged: {} bytes were skipped that are no event", totals.damaged_bytes);
+      spdlog::warn("damaged: {} bytes of the log were skipped", totals.damaged_bytes);
     }
     if (totals.torn_bytes > 0) {
-      spdlog::warn("cut short: the last {} bytes are of an event that is not whole; all before was read",
+      spdlog::warn("cut short: the last event, {} bytes, is incomplete; all events before it were read",
                    totals.torn_bytes);
     }
   }
@@ -64,7 +64,7 @@ class BusSource : public EventSource {
   void WarnOfLosses() const override { WarnOfBusLosses(*bus_); }
 
  private:
-  /// Keeps it beyond the call.
+  /// Copies the event, since it is valid during the call only.
   void Take(const LcmEvent& event) {
     channel_.assign(event.channel);
     message_.assign(event.message.begin(), event.message.end());

@@ -1,4 +1,5 @@
-// The messages of one or several LCM event logs, each as its sender encoded it. Belongs to one thread.
+// Reads the messages of one or several LCM event logs, each as its sender encoded it. Only one thread may use
+// an object.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +17,19 @@ namespace fresco {
 
 using LogPaths = std::vector<std::filesystem::path>;
 
-/// Which logs, and whose messages of them.
+/// Which logs to read, and which of their messages.
 struct LogSource {
   LogPaths paths;
-  std::optional<AuthenticationKey> key =
-      {};  ///< only messages with a tag of this key; none: whatever there is
+  /// If set, only messages that are authenticated with this key are read.
+  std::optional<AuthenticationKey> key = {};
 };
 
 struct LogMessage {
   std::string_view channel;
-  std::span<const std::byte> content;  ///< without a tag; valid until the next is read
+  std::span<const std::byte> content;  ///< without the authentication tag; valid until the next message is
+                                       ///< read
 
-  /// Whether it is one of this type, and decodes.
+  /// Decodes the message. Returns false if it is of another type or does not decode.
   template <class Message>
   bool DecodeAs(Message& message) const {
     return BeginsAs<Message>(content) && Decode(content, message);
@@ -36,13 +38,13 @@ struct LogMessage {
 
 class LogMessages {
  public:
-  /// Throws UsageError where a log can't be read.
+  /// Throws UsageError if a log can't be read.
   explicit LogMessages(LogSource source) : source_(std::move(source)), logs_(source_.paths) {}
 
-  /// The next, in the order in which they were received; nullopt at the end.
+  /// Returns the next message, in the order in which they were received; nullopt at the end.
   std::optional<LogMessage> Next();
 
-  /// Messages passed over for want of a tag of the key.
+  /// The number of messages left out because they are not authenticated with the key.
   int64_t refused() const { return refused_; }
   MergedEventLogs::Totals totals() const { return logs_.totals(); }
 

@@ -1,4 +1,4 @@
-// Puts the events of a log back on a bus, their bytes as they are. Belongs to one thread.
+// Publishes the events of a log on a bus again, with unchanged bytes. Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,19 @@ namespace fresco {
 
 class LogPlayer {
  public:
-  /// `speed` times as fast as it was recorded; 0: as fast as receivers with default buffers can take it. No
-  /// speed is faster than that. `bus` must outlive the player.
+  /// Plays `speed` times as fast as the events were recorded, or if `speed` is 0 as fast as possible. But it
+  /// never plays faster than receivers with default buffers can follow. `bus` must outlive the player.
   LogPlayer(Bus& bus, double speed) : bus_(bus), speed_(speed) {}
 
-  /// Waits for the event's time, unless the program is asked to stop, and publishes it.
+  /// Waits until it is time for the event, or until the program is asked to stop, and publishes it.
   void Play(const LcmEvent& event);
 
-  /// The next event is a first one: it is played at once.
+  /// Starts the clock again: the next event is published at once.
   void StartAgain() { first_.reset(); }
 
+  /// The number of events published.
   int64_t events() const { return events_; }
-  /// Events that the bus did not take.
+  /// The number of events that the bus could not send.
   int64_t refused() const { return refused_; }
 
  private:

@@ -7,7 +7,7 @@
 namespace fresco {
 namespace {
 
-constexpr size_t kMaximumRecords = 4096;  // of each kind: names come from the network
+constexpr size_t kMaximumRecords = 4096;  // of each kind; a limit, since anybody may send names
 constexpr int64_t kMaximumOrder = int64_t{1} << 32;
 constexpr int64_t kMaximumSequence = int64_t{1} << 53;
 
@@ -54,7 +54,7 @@ void LogSummary::Take(const LcmEvent& event) {
   }
 }
 
-/// False where it is damaged.
+/// Returns false if the message is damaged.
 bool LogSummary::TakeMessage(std::span<const std::byte> message) {
   if (BeginsAs<weights_t>(message)) {
     return true;

@@ -1,6 +1,6 @@
-// What stands in logs, gathered in one pass: channels, runs, episodes, actors, gaps. It decodes no more than
-// it needs; networks not at all. Its memory does not depend on the size of the logs. Pure; an object belongs
-// to one thread.
+// Collects what logs contain in one pass: channels, runs, episodes, actors, gaps. It decodes only what it
+// needs, and no networks. Its memory does not depend on the size of the logs. No I/O. Only one thread may use
+// an object.
 #pragma once
 
 #include <cstdint>
@@ -18,26 +18,27 @@
 namespace fresco {
 
 struct ChannelTraffic {
-  std::string type;  ///< "run_t"; "foreign" and the fingerprint; "mixed"
-  int64_t events = 0;
-  int64_t message_bytes = 0;
-  int64_t damaged = 0;  ///< begin as one of Fresco's and do not decode; networks are not looked into
+  std::string type;           ///< a Fresco type such as "run_t"; or "foreign" and the fingerprint; or "mixed"
+  int64_t events = 0;         ///< number of messages
+  int64_t message_bytes = 0;  ///< their size in all
+  int64_t damaged = 0;        ///< messages of a Fresco type that do not decode; networks are not checked
 };
 
 struct RunTraffic {
   uint32_t config_hash = 0;
-  IntervalSet config_parts{1024};
-  int32_t config_part_count = 0;  ///< 0: no run_t was there
-  bool finished = false;          ///< the learner has said so
-  std::optional<int64_t> first_order;
-  int64_t last_order = -1;
+  IntervalSet config_parts{1024};      ///< numbers of the recorded parts of the configuration
+  int32_t config_part_count = 0;       ///< number of all its parts; 0 if no run_t was recorded
+  bool finished = false;               ///< the learner announced the end of the run
+  std::optional<int64_t> first_order;  ///< lowest index of a recorded order; none: no order was recorded
+  int64_t last_order = -1;             ///< highest index of a recorded order
   int64_t committed_orders = 0;
   EpisodeCoverage episodes;
-  std::set<int64_t> actors;                        ///< that flew for it
+  std::set<int64_t> actors;                        ///< ids of the actors that sent transitions
   std::optional<learner_status_t> learner_status;  ///< the last one
 
+  /// Whether every part of the configuration was recorded.
   bool config_known() const { return config_part_count > 0 && config_parts.count() == config_part_count; }
-  /// Orders of which not one transition is there.
+  /// The number of orders of which no transition was recorded.
   int64_t orders_without_transitions() const;
 };
 
@@ -45,15 +46,16 @@ struct ActorTraffic {
   std::string host;
   int32_t pid = 0;
   int64_t statuses = 0;
-  IntervalSet sequences{1024};  ///< the numbers of its statuses: what is missing was lost
+  IntervalSet sequences{1024};  ///< numbers of its recorded statuses; missing ones were lost
 };
 
 class LogSummary {
  public:
+  /// Adds an event. Call it for every event, in order.
   void Take(const LcmEvent& event);
 
   int64_t events() const { return events_; }
-  /// Times of the first and the last event, in microseconds since the epoch; 0 where there is none.
+  /// Times of the first and the last event, microseconds since the epoch; 0 if there is none.
   int64_t begin_utime() const { return begin_utime_; }
   int64_t end_utime() const { return end_utime_; }
   double duration_s() const { return 1e-6 * static_cast<double>(end_utime_ - begin_utime_); }
@@ -62,7 +64,8 @@ class LogSummary {
   const std::map<int64_t, ActorTraffic>& actors() const { return actors_; }
   int64_t foreign_messages() const { return foreign_; }
   int64_t damaged_messages() const { return damaged_; }
-  /// Messages of channels, runs or actors beyond the 4,096 that are told apart.
+  /// The number of messages that were left out of the tables because these have at most 4,096 channels, runs
+  /// and actors.
   int64_t beyond_limits() const { return beyond_limits_; }
 
  private:
@@ -76,7 +79,7 @@ class LogSummary {
   void Take(const actor_status_t& message);
   void Take(const learner_status_t& message);
   template <class Message>
-  void Take(const Message&) {}  // says nothing of runs or actors
+  void Take(const Message&) {}  // other messages say nothing about runs or actors
 
   int64_t events_ = 0;
   int64_t begin_utime_ = 0;

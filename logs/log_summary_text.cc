@@ -27,7 +27,7 @@ std::string RunIdText(int64_t run_id) {
 
 std::string TimeText(int64_t utime) {
   constexpr int64_t kMicroseconds = 1'000'000;
-  constexpr int64_t kYear3000 = 32'503'680'000;  // what is damaged may name any time
+  constexpr int64_t kYear3000 = 32'503'680'000;  // a limit, since a damaged event may have any time
   const int64_t seconds = std::clamp<int64_t>(utime / kMicroseconds, 0, kYear3000);
   return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:03} UTC", fmt::gmtime(static_cast<std::time_t>(seconds)),
                      std::max<int64_t>(utime, 0) % kMicroseconds / 1000);
@@ -39,8 +39,8 @@ std::string HeadText(const LogSummary& summary, const MergedEventLogs::Totals& t
     text += fmt::format(", {:.3f} s from {} on", summary.duration_s(), TimeText(summary.begin_utime()));
   }
   return fmt::format(
-      "{}\n{} foreign messages, {} damaged ones; {} bytes are no event, {} of a last event that was "
-      "cut\n",
+      "{}\n{} foreign messages, {} damaged ones; {} damaged bytes between events, {} bytes of a last event "
+      "that was cut off\n",
       text, summary.foreign_messages(), summary.damaged_messages(), totals.damaged_bytes, totals.torn_bytes);
 }
 
@@ -56,11 +56,11 @@ std::string ChannelTable(const LogSummary& summary) {
 
 std::string RunText(int64_t run_id, const RunTraffic& run) {
   std::string text = fmt::format("\nrun {}, configuration {:08x}", RunIdText(run_id), run.config_hash);
-  text += run.config_known() ? " (here as a whole)"
-                             : fmt::format(" ({} of its parts are here)", run.config_parts.count());
+  text += run.config_known() ? " (complete)"
+                             : fmt::format(" (only {} of its parts recorded)", run.config_parts.count());
   text += run.finished ? ", finished\n" : ", not finished\n";
   if (run.first_order) {
-    text += fmt::format("  orders {} .. {}, {} committed, {} without a transition\n", *run.first_order,
+    text += fmt::format("  orders {} .. {}, {} committed, {} without any transition\n", *run.first_order,
                         run.last_order, run.committed_orders, run.orders_without_transitions());
   }
   const EpisodeCoverage& episodes = run.episodes;

@@ -1,4 +1,4 @@
-// What `fresco log info` prints. Pure.
+// Makes the output of `fresco log info`. Pure functions; any thread may call them.
 #pragma once
 
 #include <string>
@@ -8,11 +8,12 @@
 
 namespace fresco {
 
-/// For people: channels, runs and actors as tables, and what is missing or damaged.
+/// Returns a text for people: channels, runs and actors as tables, and what is missing or damaged.
 std::string LogSummaryText(const LogSummary& summary, const MergedEventLogs::Totals& totals);
 
-/// One object: events, bytes, begin_utime, duration_s, damaged_bytes, torn_bytes, foreign_messages,
-/// damaged_messages, beyond_limits; channels, runs and actors as lists of objects.
+/// Returns a JSON object with events, bytes, begin_utime, duration_s, damaged_bytes, torn_bytes,
+/// foreign_messages, damaged_messages and beyond_limits, and with channels, runs and actors as lists of
+/// objects.
 std::string LogSummaryJson(const LogSummary& summary, const MergedEventLogs::Totals& totals);
 
 }  // namespace fresco

@@ -11,7 +11,7 @@
 namespace fresco {
 namespace {
 
-/// More than any run has in flight; what is open beyond is not going to be whole.
+/// More than any run has in flight. If more are open, the oldest will not become complete.
 constexpr size_t kMaximumOpenEpisodes = 8192;
 
 }  // namespace
@@ -61,7 +61,7 @@ void LoggedEpisodes::Survey() {
     } else if (message->DecodeAs(orders) && IsOurs(IdentityOf(orders))) {
       TakeOrders(orders);
     } else if (message->DecodeAs(weights) && IsOurs(IdentityOf(weights))) {
-      // Which network a chunk is of is the channel's to say.
+      // Only the channel says which of the two networks a chunk belongs to.
       const auto kind = message->channel.ends_with("_TARGET") ? NetworkKind::kTarget : NetworkKind::kCurrent;
       weights_crcs_[{kind, weights.version}] = static_cast<uint32_t>(weights.crc32c);
     }

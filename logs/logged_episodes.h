@@ -1,7 +1,7 @@
-// The episodes of one run as LCM event logs hold them. The constructor reads the logs once, to know which
-// episodes are whole; Take reads them once more, as far as it needs to. Each episode is put together by a
-// ledger, so it counts only where everything of it follows from its actions in this world; what the logs
-// hold twice or in pieces does no harm. Belongs to one thread.
+// Reads the episodes of one run from LCM event logs. The constructor reads the logs once, to find out which
+// episodes are complete. Take reads them a second time, only as far as it needs. A Ledger (training/ledger.h)
+// assembles each episode, so an episode counts only if it follows from its actions in this world, and it may
+// be in the logs in pieces or twice. Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
@@ -20,42 +20,43 @@ namespace fresco {
 
 class LoggedEpisodes {
  public:
-  /// `world` must outlive it; `mask_options` are those that the run flew with. Throws UsageError where a log
-  /// can't be read.
+  /// `world` must outlive the object. `mask_options` are those of the recorded run. Throws UsageError if a
+  /// log can't be read.
   LoggedEpisodes(LogSource source, RunIdentity identity, const World& world, MaskOptions mask_options);
 
-  /// The orders of which the whole episode is in the logs.
+  /// The indices of the orders whose episode is complete in the logs.
   const std::set<int64_t>& whole() const { return whole_; }
-  /// Orders below the last whole one whose episode is not whole, as ranges (first, last), rising.
+  /// The indices of the other orders, below the highest of whole(), as ascending ranges (first, last).
   std::vector<std::pair<int64_t, int64_t>> Missing() const;
-  /// Of the whole ones those that were flown to train; the others evaluated, or their order was not recorded.
+  /// Those of whole() that are known to be training orders. The others are evaluations, or their order was
+  /// not recorded.
   std::vector<int64_t> Training() const;
-  /// CRC-32C of a version of a network, as the learner sent it; none: not recorded.
+  /// The CRC-32C of a version of a network that the learner sent; none if it was not recorded.
   std::optional<uint32_t> WeightsCrc(NetworkKind kind, int32_t version) const;
-  /// Of the logs.
+  /// What was read of the logs.
   MergedEventLogs::Totals totals() const { return totals_; }
-  /// Messages of the logs that were passed over for want of a tag of the key.
+  /// The number of messages left out because they are not authenticated with the key.
   int64_t refused() const { return refused_; }
 
-  /// The whole episode of an order; CHECKs that it is one. The indices must rise from call to call. Throws
-  /// Failure where the logs are not what they were.
+  /// Returns the complete episode of an order; CHECKs that whole() has its index. The indices must ascend
+  /// from call to call. Throws Failure if the logs have changed since the constructor read them.
   Episode Take(int64_t order_index);
 
  private:
-  /// Puts episodes together; of bounded size whatever stands in a log.
+  /// Assembles episodes. Its memory is bounded, whatever is in a log.
   class Assembly {
    public:
     Assembly(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
-    /// Returns the episode where this completes it.
+    /// Adds the transitions of a message. Returns the episode if it is complete now.
     std::optional<Episode> Add(const transitions_t& message);
-    /// Drops what it has of orders below.
+    /// Drops the incomplete episodes of orders with a lower index.
     void Forget(int64_t below) { open_.erase(open_.begin(), open_.lower_bound(below)); }
 
    private:
     const World* world_;
     MaskOptions mask_options_;
     Episode run_;
-    std::map<int64_t, Ledger> open_;  // one order in each
+    std::map<int64_t, Ledger> open_;  // incomplete episodes by order index, each in a ledger of its own
   };
 
   bool IsOurs(RunIdentity identity) const { return identity == identity_; }
@@ -72,11 +73,11 @@ class LoggedEpisodes {
   MergedEventLogs::Totals totals_;
   int64_t refused_ = 0;
 
-  // Of Take.
+  // For Take.
   LogMessages messages_;
   Assembly assembly_;
   transitions_t transitions_{};
-  std::map<int64_t, Episode> ahead_;  // whole, and not yet asked for
+  std::map<int64_t, Episode> ahead_;  // complete episodes that Take was not asked for yet
 };
 
 }  // namespace fresco

@@ -12,7 +12,7 @@
 namespace fresco {
 namespace {
 
-/// Runs by their identity, in the order in which they appear.
+/// Collects runs by their identity, in the order in which they appear.
 class Runs {
  public:
   void Take(const run_t& message) {
@@ -77,19 +77,21 @@ LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string&
     known += fmt::format("\n  {} (configuration {:08x}, {} messages of transitions)", RunIdText(run),
                          run.identity.config_hash, run.transitions_messages);
   }
-  throw UsageError(runs.empty() ? "no run of Fresco is in the log"
-                   : run_id.empty()
-                       ? fmt::format("several runs are in the log; name one with --run ID:{}", known)
-                       : fmt::format("--run: no run {} is in the log, but{}", run_id, known));
+  throw UsageError(
+      runs.empty() ? "the log contains no run of Fresco"
+      : run_id.empty()
+          ? fmt::format("the log contains several runs; name one with --run ID:{}", known)
+          : fmt::format("--run: the log does not contain run {}, but it contains{}", run_id, known));
 }
 
 void ExpectOrdersOfThisRelease(const LoggedRun& run) {
   if (run.protocol_version && *run.protocol_version != kProtocolVersion) {
-    throw UsageError(fmt::format(
-        "run {} was recorded with protocol version {}, this program has version {}: its orders mean other "
-        "episodes here, so the same weights can't come out; use the release that recorded it, or train "
-        "another agent on its episodes (another schedule or agent, with --set)",
-        RunIdText(run), *run.protocol_version, kProtocolVersion));
+    throw UsageError(
+        fmt::format("run {} was recorded with protocol version {}, but this program has version {}: its "
+                    "orders mean other episodes here, so the weights would differ; use the release that "
+                    "recorded it, or train another agent on its episodes (another schedule or agent, with "
+                    "--set)",
+                    RunIdText(run), *run.protocol_version, kProtocolVersion));
   }
 }
 

@@ -1,4 +1,5 @@
-// The runs that LCM event logs hold, found by what their learners announce and their messages carry.
+// Finds the runs that LCM event logs contain, by the learners' announcements and the identity in each
+// message. The functions may be called from any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +15,23 @@ namespace fresco {
 struct LoggedRun {
   RunIdentity identity;
   int64_t transitions_messages = 0;
-  std::optional<int32_t> protocol_version = {};        ///< of its messages; none: it was not recorded
-  std::optional<int64_t> arithmetic_fingerprint = {};  ///< of the learner; none: it was not recorded
-  std::optional<std::string> config_text = {};         ///< none: not every part of it was recorded
+  std::optional<int32_t> protocol_version = {};        ///< of its messages; none if it was not recorded
+  std::optional<int64_t> arithmetic_fingerprint = {};  ///< of the learner; none if it was not recorded
+  std::optional<std::string> config_text = {};         ///< none if some part of it was not recorded
 };
 
-/// The run's id as people write it: 16 hexadecimal digits.
+/// Returns the run's id as 16 hexadecimal digits.
 std::string RunIdText(const LoggedRun& run);
 
-/// Those of which transitions or the configuration were recorded, in the order in which they appear. Throws
-/// UsageError where a log can't be read.
+/// Returns the runs of which transitions or the configuration were recorded, in the order in which they
+/// appear. Throws UsageError if a log can't be read.
 std::vector<LoggedRun> FindLoggedRuns(const LogSource& source);
 
-/// The one with this id, as RunIdText writes it; with an empty text the only one. Throws
-/// UsageError that lists the runs where that does not name one.
+/// Returns the run with this id (in the form of RunIdText), or the only run if the text is empty. Throws
+/// UsageError that lists the runs if there is no such run or if the text is empty and there are several.
 LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id);
 
-/// Throws UsageError if the run's orders are those of another release, which mean other episodes.
+/// Throws UsageError if another release recorded the run and its orders mean other episodes in this one.
 void ExpectOrdersOfThisRelease(const LoggedRun& run);
 
 }  // namespace fresco

@@ -54,7 +54,7 @@ void MergedEventLogs::Advance(Log& log) {
   }
 }
 
-/// Opens the logs whose first event is not later than the events at hand.
+/// Opens the waiting logs whose first event is not later than the next event of every open log.
 void MergedEventLogs::OpenThoseThatBegin() {
   const auto begins = [this] {
     return std::all_of(open_.begin(), open_.end(),

@@ -1,6 +1,6 @@
-// Several event logs as one, in the order in which their events were received: the parts of a split log, or
-// what recorders on several hosts wrote of the same run. Only logs that overlap in time are open at once.
-// Belongs to one thread.
+// Reads several event logs as one, in the order in which their events were received: the parts of a split
+// log, or logs that several hosts recorded of the same run. Only logs that overlap in time are open at once.
+// Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,28 @@ namespace fresco {
 
 class MergedEventLogs {
  public:
-  /// What was read, of all logs together.
+  /// What was read, for all logs together.
   struct Totals {
-    int64_t bytes = 0;
-    int64_t damaged_bytes = 0;  ///< skipped; no events
-    int64_t torn_bytes = 0;     ///< of a last event that was cut
+    int64_t bytes = 0;          ///< bytes read
+    int64_t damaged_bytes = 0;  ///< damaged bytes that were skipped
+    int64_t torn_bytes = 0;     ///< bytes of incomplete last events
   };
 
   /// Throws UsageError as EventLogReader does.
   explicit MergedEventLogs(const std::vector<std::filesystem::path>& paths);
 
-  /// The next event, valid until the next call; of two of the same time, that of the path named first.
-  /// nullopt at the end. An event whose clock went backwards in its log keeps its place there.
+  /// Returns the next event, valid until the next call; nullopt at the end. Of two events of the same time,
+  /// that of the path named first comes first. If time goes backwards within a log, its events keep their
+  /// order.
   std::optional<LcmEvent> Next();
 
-  /// So far; whole once Next has returned nullopt.
+  /// The totals so far. They are complete after Next has returned nullopt.
   Totals totals() const;
 
  private:
   struct Log {
     std::filesystem::path path;
-    size_t place = 0;  // among the paths
+    size_t place = 0;  // position among the paths
     int64_t first_utime = 0;
     std::unique_ptr<EventLogReader> reader = nullptr;
     std::optional<LcmEvent> next = {};
@@ -46,8 +47,8 @@ class MergedEventLogs {
   void OpenThoseThatBegin();
   void Advance(Log& log);
 
-  std::deque<Log> waiting_;  // by the time of their first event
-  std::vector<Log> open_;    // by place
+  std::deque<Log> waiting_;  // sorted by the time of their first event
+  std::vector<Log> open_;    // sorted by place
   Log* handed_out_ = nullptr;
   Totals closed_;
 };

@@ -24,7 +24,7 @@ NamedRow RowOf(const Message& message) {
   return row;
 }
 
-/// The numbers of the actions that a mask allows.
+/// The indices of the actions that a mask allows, separated by spaces.
 std::string AllowedActions(const std::vector<uint8_t>& mask, int actions) {
   std::string text;
   for (int action = 0; action < actions; ++action) {

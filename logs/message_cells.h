@@ -1,5 +1,6 @@
-// Values of messages as people and tables want them, one meaning for JSON and CSV: identifiers in the
-// hexadecimal digits of summary.json, numbers with the fewest digits that read back as the same bits. Pure.
+// Turns values of messages into cells of tables, in the same way for JSON and CSV. Identifiers become
+// hexadecimal digits, as in summary.json. Numbers get the fewest digits that read back as the same bits. Pure
+// functions; any thread may call them.
 #pragma once
 
 #include <concepts>
@@ -17,9 +18,11 @@ namespace fresco {
 /// A row of a table with the names of its columns.
 using NamedRow = std::vector<std::pair<std::string, CsvCell>>;
 
+/// Return the cell for a field's value. The field's name decides whether an integer is an identifier.
 CsvCell CellOf(std::string_view field, int64_t value);
 CsvCell CellOf(std::string_view field, double value);
-/// The double that is written with the float's fewest digits; read back and rounded, it is the float.
+/// The cell holds the double whose digits are the fewest that identify the float. Rounded to float, it is the
+/// value.
 CsvCell CellOf(std::string_view field, float value);
 CsvCell CellOf(std::string_view field, const std::string& value);
 template <std::integral Integer>
@@ -27,13 +30,13 @@ CsvCell CellOf(std::string_view field, Integer value) {
   return CellOf(field, static_cast<int64_t>(value));
 }
 
-/// Every field of a status but its lists.
+/// Return all fields of a status except its lists.
 NamedRow StatusRow(const actor_status_t& status);
 NamedRow StatusRow(const learner_status_t& status);
 
-/// Calls `handle` with a row for every transition: run, order, actor, number and outcome of the episode, s,
-/// a, r, the temporal-difference error, s' and the actions allowed there. False, without a row, where the
-/// message's counts contradict one another.
+/// Calls `handle` with a row for every transition: run, order, actor, number of the transition, outcome, s,
+/// a, r, the temporal-difference error, s' and the actions allowed in s'. Returns false, without a row, if
+/// the message's counts contradict each other.
 bool ForEachTransitionRow(const transitions_t& message, const std::function<void(const NamedRow&)>& handle);
 
 }  // namespace fresco

@@ -31,7 +31,8 @@ void Recorder::Step(int64_t timeout_us) {
 }
 
 Recorder::Totals Recorder::Finish() {
-  // What was sent before is on its way through the socket; others may go on sending.
+  // Events that were sent before may still be on their way. Wait for them, but not for ever: others may keep
+  // sending.
   constexpr int64_t kQuietUs = 100'000;
   constexpr int64_t kPatienceUs = 1'000'000;
   const int64_t deadline_us = MonotonicMicroseconds() + kPatienceUs;
@@ -49,7 +50,7 @@ void Recorder::Take(const LcmEvent& event) {
   }
   const size_t bytes = event.channel.size() + event.message.size();
   const std::lock_guard lock(mutex_);
-  // A half of the memory may be in the thread's hands.
+  // The writing thread may hold the other half of the memory.
   if (waiting_.memory_bytes() + bytes + sizeof(Entry) > options_.memory_bytes / 2) {
     ++totals_.dropped_events;
     return;
@@ -78,7 +79,8 @@ void Recorder::WriteBatches() {
   }
 }
 
-/// Waits a little, so that events come in batches; false where the recorder ends and nothing is left.
+/// Waits a little, so that events come in batches, and takes the waiting ones. Returns false if the recorder
+/// ends and there are none.
 bool Recorder::TakeBatch() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kPause, [this] { return ending_ || waiting_.bytes.size() > kHurryBytes; });

@@ -1,6 +1,6 @@
-// Records everything on a bus as LCM event logs. The thread that owns it takes events off the bus into
-// memory; a thread of the recorder's own writes them, so that a slow disk holds nothing up. Memory is
-// bounded: what finds no room is dropped and counted. An object belongs to one thread.
+// Records everything on a bus as LCM event logs. The thread that uses the object takes events off the bus
+// into memory. A second thread, which the object starts, writes them, so a slow disk delays nothing. Memory
+// is bounded: if it is full, events are dropped and counted. Only one thread may call its functions.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +20,7 @@ namespace fresco {
 
 struct RecorderOptions {
   std::filesystem::path path = {};
-  int64_t split_bytes = 0;  ///< as EventLogWriter has it
+  int64_t split_bytes = 0;  ///< as in EventLogWriter; 0: one file
   ChannelFilter channels = {};
   size_t memory_bytes = size_t{256} << 20;  ///< for events that wait for the disk
 };
@@ -28,24 +28,24 @@ struct RecorderOptions {
 class Recorder {
  public:
   struct Totals {
-    int64_t events = 0;  ///< written, or waiting for the disk
-    int64_t bytes = 0;   ///< of these in the log
-    int64_t dropped_events = 0;
-    int files = 0;  ///< known once it has finished
+    int64_t events = 0;          ///< events that were written or wait for the disk
+    int64_t bytes = 0;           ///< their size in the log
+    int64_t dropped_events = 0;  ///< events for which there was no memory
+    int files = 0;               ///< number of files; set by Finish
   };
 
-  /// Opens the log, then subscribes: from here on nothing is missed. `bus` must outlive the recorder. Throws
-  /// UsageError where the log is there already or can't be made, or the bus can't be heard.
+  /// Opens the log, then subscribes to all channels. `bus` must outlive the recorder. Throws UsageError if
+  /// the log exists or can't be made, or if the bus can't be received.
   Recorder(Bus& bus, RecorderOptions options);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Takes what arrives, waiting for the first event up to `timeout_us`. Throws Failure where the disk does
-  /// not take the log; what was written before can be read.
+  /// Takes events that have arrived. If there are none, waits up to `timeout_us` for the first. Throws
+  /// Failure if the log can't be written; the events written before can still be read.
   void Step(int64_t timeout_us);
 
-  /// Takes what has arrived already, writes everything and closes the log. Throws as Step does.
+  /// Takes the events that have arrived already, writes everything and closes the log. Throws as Step does.
   Totals Finish();
 
   const Totals& totals() const { return totals_; }
@@ -56,7 +56,7 @@ class Recorder {
     uint32_t channel_bytes;
     uint32_t message_bytes;
   };
-  /// Events that wait for the disk: channel and message of each, one behind the other.
+  /// Events that wait for the disk. `bytes` holds channel and message of each, one after the other.
   struct Batch {
     std::vector<Entry> entries;
     std::vector<std::byte> bytes;
@@ -73,8 +73,8 @@ class Recorder {
   Bus& bus_;
   RecorderOptions options_;
   Totals totals_;
-  EventLogWriter writer_;  // of the thread, until it has ended
-  Batch writing_;          // of the thread
+  EventLogWriter writer_;  // used by the writing thread until that has ended
+  Batch writing_;          // used by the writing thread only
   int64_t flush_at_us_ = 0;
 
   std::mutex mutex_;

@@ -13,11 +13,11 @@ std::string DamageText(const RetrainReport& report) {
   const MergedEventLogs::Totals& totals = report.totals;
   std::string text;
   if (report.refused > 0) {
-    text += fmt::format("{} messages of the log are not authenticated with the key and were passed over\n",
+    text += fmt::format("{} messages of the log are not authenticated with the key and were left out\n",
                         report.refused);
   }
   if (totals.torn_bytes > 0) {
-    text += fmt::format("the log is cut short: its last event ({} bytes) is not whole\n", totals.torn_bytes);
+    text += fmt::format("the log is cut short: its last event ({} bytes) is incomplete\n", totals.torn_bytes);
   }
   if (totals.damaged_bytes > 0) {
     text += fmt::format("{} bytes of the log are damaged and were skipped\n", totals.damaged_bytes);
@@ -31,25 +31,22 @@ std::string SameRunText(const RetrainReport& report) {
       fmt::format("{} episodes from the log, {} flown again\n", counts.recorded_episodes, counts.flown_again);
   if (counts.different_versions > 0) {
     text += fmt::format(
-        "NOT the recorded run: {} of the {} versions of its networks in the log are others, from version {} "
-        "on; "
-        "another build of Fresco or another processor recorded it, or the log was changed\n",
+        "NOT the recorded run: {} of the {} network versions in the log differ, from version {} on; another "
+        "build of Fresco or another kind of processor recorded it, or the log was changed\n",
         counts.different_versions, counts.compared_versions, counts.first_different_version);
   } else if (counts.compared_versions > 0) {
-    text += fmt::format(
-        "the recorded run: all {} versions of its networks in the log are the same, bit for bit\n",
-        counts.compared_versions);
+    text += fmt::format("the recorded run: all {} versions of its networks in the log have the same bits\n",
+                        counts.compared_versions);
   } else {
-    text += "the log holds no version of the run's networks to compare with\n";
+    text += "the log contains no version of the run's networks to compare with\n";
   }
   return text;
 }
 
 std::string ExperienceText(const RetrainReport& report) {
   return fmt::format(
-      "another agent, trained offline: {} recorded episodes that other networks flew, {} left out (not "
-      "possible "
-      "under its masks), {} evaluations flown by its own networks\n",
+      "another agent, trained offline: {} recorded episodes that other networks flew, {} left out (its masks "
+      "forbid them), {} evaluations flown by its own networks\n",
       report.counts.recorded_episodes, report.counts.left_out, report.counts.evaluations_flown);
 }
 
@@ -76,11 +73,10 @@ std::string RangesText(const std::vector<std::pair<int64_t, int64_t>>& ranges) {
 std::string BeginText(const RetrainReport& report) {
   std::string text = DamageText(report);
   text += fmt::format("retraining from run {}, ", RunIdText(report.run));
-  text +=
-      report.use == Retraining::Use::kSameRun
-          ? "with the configuration that was recorded: the same weights\n"
-          : "with another configuration than the recorded one: what it flew is experience for another agent "
-            "(offline; not the recorded run)\n";
+  text += report.use == Retraining::Use::kSameRun
+              ? "with the recorded configuration: the result is the same weights\n"
+              : "with another configuration: its episodes are experience for another agent (offline; the "
+                "result is not the recorded run)\n";
   if (!report.missing.empty()) {
     text += fmt::format("the log misses the episodes of orders {}\n", RangesText(report.missing));
   }

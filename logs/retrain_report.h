@@ -1,4 +1,5 @@
-// What a retraining has to say of the logs and of the agent it trained, for people and as JSON. Pure.
+// The report of a retraining about the logs and the trained agent, as text for people and as JSON. Pure
+// functions; any thread may call them.
 #pragma once
 
 #include <string>
@@ -14,20 +15,22 @@ struct RetrainReport {
   Retraining::Use use = Retraining::Use::kSameRun;
   std::vector<std::pair<int64_t, int64_t>> missing = {};  ///< see LoggedEpisodes::Missing
   MergedEventLogs::Totals totals = {};
-  int64_t refused = 0;  ///< messages without a tag of the key
+  int64_t refused = 0;  ///< messages that are not authenticated with the key
   Retraining::Counts counts = {};
 };
 
-/// "3, 17 to 20 and 2 more ranges (9 orders in all)".
+/// Returns ranges as text: "3, 17 to 20 and 2 more ranges (9 orders in all)".
 std::string RangesText(const std::vector<std::pair<int64_t, int64_t>>& ranges);
 
-/// Before the training: which run the logs hold, and what its episodes are used for.
+/// Returns the text to print before the training: which run the logs contain, and what its episodes are used
+/// for.
 std::string BeginText(const RetrainReport& report);
 
-/// After it: what was taken from the logs, what was flown, and whether it is the run that was recorded.
+/// Returns the text to print after the training: which episodes came from the logs, which were flown, and
+/// whether the result is the recorded run.
 std::string EndText(const RetrainReport& report);
 
-/// A summary's JSON with the report in it, as "retrain".
+/// Returns a summary's JSON with the report added as "retrain".
 std::string WithRetrainReport(const std::string& summary_json, const RetrainReport& report);
 
 }  // namespace fresco

@@ -34,7 +34,7 @@ void WaitForEnd(OptimumSearch& optimum, LiveLine& line) {
   optimum.TakeFullPriority();
   while (!StopSignal::Requested() && !optimum.WaitForEnd(kReportUs)) {
     line.Show(fmt::format(
-        "trained; waiting for the proof of the exact optimum: {:.0f} s of processor time more at most",
+        "trained; waiting for the proof of the exact optimum: at most {:.0f} s more of processor time",
         optimum.processor_seconds_left()));
   }
 }
@@ -52,7 +52,7 @@ RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Expe
   report_.refused = episodes_.refused();
   if (strict && !report_.missing.empty()) {
     throw Failure(fmt::format(
-        "--strict: the log misses the episodes of orders {}; without --strict they are flown again",
+        "--strict: the log misses the episodes of orders {}; without --strict they would be flown again",
         RangesText(report_.missing)));
   }
   retraining_.emplace(

@@ -1,5 +1,5 @@
-// A retraining with everything that it leaves behind: the folder of a run. Used by one thread; the search for
-// the optimum has one of its own.
+// Runs a retraining and writes its results to the folder of a run. Only one thread may use an object; the
+// search for the optimum has a thread of its own.
 #pragma once
 
 #include <filesystem>
@@ -17,16 +17,16 @@ namespace fresco {
 
 class RetrainRun {
  public:
-  /// Reads through the logs; nothing is written before Train. Throws UsageError if they can't be read or hold
-  /// too little experience, Failure if they miss an episode and `strict` is set.
+  /// Reads the logs and writes nothing. Throws UsageError if they can't be read or contain too little
+  /// experience, and Failure if `strict` is set and an episode is missing.
   RetrainRun(const LogSource& source, const LoggedRun& run, const Experiment& recorded,
              const Experiment& chosen, Retraining::Use use, bool strict);
   RetrainRun(const RetrainRun&) = delete;
   RetrainRun& operator=(const RetrainRun&) = delete;
 
-  /// Trains, and writes the results into a new folder, as `train` does; to be called once. Returns the
-  /// summary's JSON with the report in it. Ends early, with what it has, if the program is asked to stop.
-  /// Throws UsageError if the folder holds another run, Failure if the experience runs out.
+  /// Trains and writes the results to a new folder, as `train` does. Call it once. Returns the summary's JSON
+  /// with the report in it. If the program is asked to stop, ends early and writes the results so far. Throws
+  /// UsageError if the folder holds another run, and Failure if the experience runs out.
   std::string Train(const std::filesystem::path& directory);
 
   const RetrainReport& report() const { return report_; }
@@ -41,8 +41,8 @@ class RetrainRun {
   RetrainReport report_;
   LoggedEpisodes episodes_;
   std::optional<Retraining> retraining_;
-  std::optional<RunFolder> folder_;  // from Train on
-  int64_t begin_us_ = 0;             // of Train
+  std::optional<RunFolder> folder_;  // set by Train
+  int64_t begin_us_ = 0;             // when Train began
   bool completed_ = false;
 };
 

@@ -26,8 +26,8 @@ Retraining::Retraining(const Experiment& experiment, const World& world, LoggedE
     const auto recorded = static_cast<int64_t>(experience_.size());
     if (recorded < experiment.schedule().episodes()) {
       throw UsageError(fmt::format(
-          "schedule.episodes is {}, and the log holds {} whole training episodes: record a longer "
-          "run, or train on what there is with --set schedule.episodes={}",
+          "schedule.episodes is {}, but the log contains only {} complete training episodes: record a longer "
+          "run, or train on these with --set schedule.episodes={}",
           experiment.schedule().episodes(), recorded, recorded));
     }
   }
@@ -68,7 +68,8 @@ void Retraining::TakeOrder(const Order& order) {
   if (!is_recorded) {
     if (strict_ && use_ == Use::kSameRun) {
       throw Failure(
-          fmt::format("--strict: the log misses the episode of order {}; without --strict it is flown again",
+          fmt::format("--strict: the log misses the episode of order {}; without --strict it would be flown "
+                      "again",
                       order.index));
     }
     flyer_.Start(order, current_, target_);
@@ -96,7 +97,7 @@ Episode Retraining::EpisodeOf(const PendingOrder& pending) {
   return use_ == Use::kSameRun ? episodes_->Take(pending.order.index) : NextExperience(pending.order.index);
 }
 
-/// Flies on until the flight of this order, the first that is pending, has ended.
+/// Flies until the flight of this order, the first pending one, has ended.
 Episode Retraining::WaitForFlight(const PendingOrder& pending) {
   while (!pending.flown) {
     flyer_.Step([this](const Order& order, const Episode& episode) {
@@ -107,7 +108,7 @@ Episode Retraining::WaitForFlight(const PendingOrder& pending) {
   return *pending.flown;
 }
 
-/// The next recorded training episode that is possible under this agent's masks, as that of an order of it.
+/// Returns the next recorded training episode that this agent's masks allow, with the index of its order.
 Episode Retraining::NextExperience(int64_t order_index) {
   Episode episode;
   while (!experience_.empty()) {
@@ -120,8 +121,8 @@ Episode Retraining::NextExperience(int64_t order_index) {
     ++counts_.left_out;
   }
   throw Failure(fmt::format(
-      "the recorded experience has run out after {} episodes: {} more hold actions that the masks of this "
-      "configuration (agent.safe_action_mask, agent.coverage_mask) do not allow",
+      "the recorded experience has run out after {} episodes: {} more have actions that the masks of this "
+      "configuration (agent.safe_action_mask, agent.coverage_mask) forbid",
       counts_.recorded_episodes - 1, counts_.left_out));
 }
 

@@ -1,11 +1,11 @@
-// Trains from the episodes that LCM event logs hold instead of from actors, with the same trainer as a live
-// run. Belongs to one thread.
+// Trains from the episodes in LCM event logs instead of from actors, with the same trainer as a live run.
+// Only one thread may use an object.
 //
-// With the configuration that was recorded every order is served by its own episode, or flown again where
-// the logs miss it, and everything that follows is what the live run had: an episode is a pure function of
-// its order. With another configuration in the same scenario the recorded training episodes serve as
-// experience for another agent: its n-th training order is served by the n-th of them, whatever network flew
-// it, and its evaluations are flown with its own networks.
+// With the recorded configuration, each order gets its own recorded episode; if the logs miss it, the episode
+// is flown again. An episode is a pure function of its order, so the result is that of the live run. With
+// another configuration in the same scenario, the recorded training episodes are experience for another
+// agent: its n-th training order gets the n-th of them, whatever network flew it. Its evaluations are flown
+// with its own networks.
 #pragma once
 
 #include <cstdint>
@@ -24,28 +24,30 @@ namespace fresco {
 class Retraining {
  public:
   enum class Use {
-    kSameRun,     ///< the logs hold a run of this very configuration
-    kExperience,  ///< they hold another agent's, in this scenario
+    kSameRun,     ///< the logs contain a run of exactly this configuration
+    kExperience,  ///< the logs contain the run of another agent in this scenario
   };
 
   struct Counts {
-    int64_t recorded_episodes = 0;   ///< that served an order
+    int64_t recorded_episodes = 0;   ///< recorded episodes used for an order
     int64_t flown_again = 0;         ///< orders whose episode the logs miss; always 0 with kExperience
-    int64_t evaluations_flown = 0;   ///< with kExperience
-    int64_t left_out = 0;            ///< recorded episodes that this agent's masks do not allow
-    int64_t compared_versions = 0;   ///< of both networks, with the CRC that the logs hold; kSameRun
-    int64_t different_versions = 0;  ///< of these; with the same binary none
-    int32_t first_different_version = -1;
+    int64_t evaluations_flown = 0;   ///< evaluations flown; always 0 with kSameRun
+    int64_t left_out = 0;            ///< recorded episodes that this agent's masks forbid
+    int64_t compared_versions = 0;   ///< network versions compared with the CRCs in the logs; for kSameRun
+    int64_t different_versions = 0;  ///< those that differ; 0 with the same binary on the same kind of
+                                     ///< processor
+    int32_t first_different_version = -1;  ///< -1: none
   };
 
   using EvaluationHandler = std::function<void(const Trainer& trainer, const Evaluation& evaluation)>;
 
-  /// All must outlive it. `evaluated` is called for every evaluation. With `strict`, Run throws Failure where
-  /// the logs miss an episode. Throws UsageError where the logs hold too few training episodes (kExperience).
+  /// `world` and `episodes` must outlive the object. `evaluated` is called for every evaluation. If `strict`
+  /// is set, the constructor and Step throw Failure if the logs miss an episode. The constructor throws
+  /// UsageError if the logs contain too few training episodes (kExperience).
   Retraining(const Experiment& experiment, const World& world, LoggedEpisodes& episodes, Use use, bool strict,
              EvaluationHandler evaluated);
 
-  /// Commits the next order. Returns false once there is none.
+  /// Commits the next order. Returns false if there is none left.
   bool Step();
 
   const Trainer& trainer() const { return trainer_; }
@@ -54,7 +56,7 @@ class Retraining {
  private:
   struct PendingOrder {
     Order order;
-    bool is_flown;  // here; otherwise a recorded episode serves it
+    bool is_flown;  // true: this object flies it; false: it gets a recorded episode
     std::optional<Episode> flown = {};
   };
 
@@ -71,11 +73,11 @@ class Retraining {
   LoggedEpisodes* episodes_;
   Use use_;
   bool strict_;
-  std::deque<int64_t> experience_;  // kExperience: recorded training episodes that have served no order yet
-  SharedParameters current_;        // the newest versions, which every order names as it is written
+  std::deque<int64_t> experience_;  // kExperience: recorded training episodes that are not used yet
+  SharedParameters current_;        // newest version, which a new order names
   SharedParameters target_;
   Flyer flyer_;
-  std::deque<PendingOrder> pending_;  // by index
+  std::deque<PendingOrder> pending_;  // sorted by index
   Counts counts_;
   Trainer trainer_;
 };

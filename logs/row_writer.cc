@@ -45,9 +45,8 @@ void RowWriter::WriteCsvRow(const NamedRow& row) {
                  [](const auto& named, const std::string& name) { return named.first == name; });
   if (!fits) {
     throw Failure(
-        fmt::format("row {} has {} columns, the table has {}: the logs hold runs of different scenarios; "
-                    "export one of them "
-                    "(--run ID, see fresco log info) or use --format jsonl",
+        fmt::format("row {} has {} columns, but the table has {}: the logs contain runs of different "
+                    "scenarios; export one of them (--run ID, see fresco log info) or use --format jsonl",
                     rows_ + 1, row.size(), header_.size()));
   }
   std::vector<CsvCell> cells;

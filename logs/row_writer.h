@@ -1,4 +1,4 @@
-// A table written row by row, as CSV or as JSON Lines. Belongs to one thread.
+// Writes a table row by row, as CSV or as JSON Lines. Only one thread may use an object.
 #pragma once
 
 #include <string>
@@ -13,10 +13,11 @@ class RowWriter {
  public:
   enum class Format { kCsv, kJsonLines };
 
+  /// `output` must outlive the object.
   RowWriter(TextOutput& output, Format format) : output_(output), format_(format) {}
 
-  /// JSON Lines: an object a row; what is no number is null. CSV: the first row gives the header; throws
-  /// Failure where another has other columns.
+  /// Writes a row. JSON Lines: each row is one object, and NaN is null. CSV: the first row decides the
+  /// header; throws Failure if a later row has other columns.
   void Write(const NamedRow& row);
 
   int64_t rows() const { return rows_; }

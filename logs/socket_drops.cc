@@ -9,7 +9,7 @@
 namespace fresco {
 namespace {
 
-/// Inodes of the sockets that this program has open.
+/// Returns the inodes of this program's open sockets.
 std::set<std::string> OwnSockets() {
   const std::string prefix = "socket:[";
   std::set<std::string> inodes;
@@ -29,7 +29,7 @@ int64_t DroppedDatagrams() {
   const std::set<std::string> sockets = OwnSockets();
   std::ifstream table("/proc/self/net/udp");
   std::string line;
-  std::getline(table, line);  // the heading
+  std::getline(table, line);  // skips the heading
   int64_t dropped = 0;
   while (std::getline(table, line)) {
     // sl local remote state queues timer retransmits uid timeout inode references pointer drops

@@ -1,4 +1,4 @@
-// Text that a subcommand writes line by line, to standard output or a file. Belongs to one thread.
+// Writes a subcommand's text to standard output or a file. Only one thread may use an object.
 #pragma once
 
 #include <cstdio>
@@ -10,13 +10,13 @@ namespace fresco {
 
 class TextOutput {
  public:
-  /// To the file, which is written over; to standard output where `path` is empty. Throws UsageError where it
-  /// can't be opened.
+  /// Opens the file `path`, which it overwrites, or uses standard output if `path` is empty. Throws
+  /// UsageError if the file can't be opened.
   explicit TextOutput(std::string path = {});
 
-  /// Throws Failure where the text can't be written.
+  /// Writes the text. Throws Failure if it can't.
   void Write(std::string_view text);
-  /// Hands everything to the system; throws as Write does.
+  /// Passes all buffered text to the operating system. Throws as Write does.
   void Flush();
 
  private:

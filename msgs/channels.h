@@ -1,10 +1,12 @@
-// The names of Fresco's channels. See msgs/README.md for what goes over each.
+// The names of Fresco's LCM channels. msgs/README.md says what each one carries. Pure functions; any thread
+// may call them.
 #pragma once
 
 #include <string>
 
 namespace fresco {
 
+/// The full name of every channel, prefix included ("FRESCO_RUN").
 struct Channels {
   std::string run;
   std::string orders;
@@ -19,8 +21,8 @@ struct Channels {
 
 inline constexpr char kDefaultChannelPrefix[] = "FRESCO";
 
-/// prefix + "_RUN" and so on. Throws UsageError where the prefix is empty, longer than 40 characters
-/// or has other characters than letters, digits, '_' and '-'.
+/// Returns the channel names prefix + "_RUN" and so on. Throws UsageError if the prefix is empty, is longer
+/// than 40 characters, or has a character other than a letter, a digit, '_' or '-'.
 Channels ChannelsWithPrefix(const std::string& prefix);
 
 }  // namespace fresco

@@ -52,7 +52,8 @@ void FillScalar(Message& message, const FieldDescriptor& field) {
   }
 }
 
-/// The value of a numeric field as the double that ranges are stated in; `index` -1: not repeated.
+/// Returns the value of a numeric field as a double, since ranges are doubles. `index` is -1 if the field is
+/// not repeated.
 double NumericValue(const Message& message, const FieldDescriptor& field, int index) {
   const Reflection& reflection = *message.GetReflection();
   const bool repeated = index >= 0;
@@ -79,7 +80,7 @@ void CheckRange(const Message& message, const FieldDescriptor& field, int index,
   }
 }
 
-/// A path's first part: name, and index where it says name[index].
+/// The first part of a path: the field's name, and its index if the part is name[index].
 struct PathPart {
   std::string name;
   int index = -1;
@@ -100,7 +101,7 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
   return part;
 }
 
-/// `descriptor` is the part of `configuration` that was expected to have the field.
+/// Reports that `descriptor`, a message within `configuration`, has no field of this name.
 [[noreturn]] void ThrowUnknownField(const Descriptor& configuration, const Descriptor& descriptor,
                                     const std::string& name, const std::string& path) {
   throw UsageError(fmt::format("--set {}: there is no field \"{}\"; {} has: {}{}", path, name,
@@ -108,7 +109,7 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
                                DidYouMean(path, FieldPaths(configuration))));
 }
 
-/// One value, of the whole text: whatever follows it is an error.
+/// Parses the whole text as one value; anything after the value is an error.
 void AddValue(Message& message, const FieldDescriptor& field, const std::string& path,
               const std::string& value) {
   struct FirstError : google::protobuf::io::ErrorCollector {
@@ -138,7 +139,7 @@ void SetLeaf(Message& message, const FieldDescriptor& field, const std::string& 
   }
 }
 
-/// `message` is a part of `configuration`, `rest` the part of `path` that begins there.
+/// Follows `rest`, the remaining part of `path`, from `message`, which is a part of `configuration`.
 void SetFieldBelow(const Descriptor& configuration, Message& message, const std::string& rest,
                    const std::string& path, const std::string& value) {
   const size_t dot = rest.find('.');

@@ -1,5 +1,6 @@
-// What works on every configuration message alike, by Protobuf's reflection: filling in defaults,
-// checking ranges (the `range` option beside each field), setting one field by its path.
+// Generic operations on any configuration message, by Protobuf's reflection: fill in defaults, check ranges
+// (the `range` option of each field), set one field by its path. Any thread may call these functions, but no
+// two threads at a time on the same message.
 #pragma once
 
 #include <string>
@@ -8,18 +9,19 @@
 
 namespace fresco {
 
-/// Sets every unset scalar that has a default, in every submessage that is there. A oneof that is
-/// unset stays so.
+/// Sets every unset scalar field that has a default to it, also in the submessages that are set. Leaves
+/// missing submessages missing, and an unset oneof unset.
 void FillDefaults(google::protobuf::Message& message);
 
-/// Throws UsageError naming `origin`, the field's path, its value and the range where a value is out
-/// of its range. NaN is out of every range.
+/// Throws UsageError if a field's value is outside its range; the error names `origin` (the file or other
+/// source), the field's path, the value and the range. NaN is outside every range. `path` is the path of
+/// `message` within the configuration; empty for the whole configuration.
 void CheckRanges(const google::protobuf::Message& message, const std::string& origin,
                  const std::string& path = "");
 
-/// Sets the field at a dotted path ("agent.linear.initial", "scenario.sensor[1].x_m") from text; a
-/// repeated field takes values separated by commas. Throws UsageError naming the path if it is unknown (with
-/// the nearest one) or if the value does not parse.
+/// Sets the field at a dotted path ("agent.linear.initial", "scenario.sensor[1].x_m") to the value that the
+/// text holds. A repeated field takes several values, separated by commas. Throws UsageError if there is no
+/// such field (the error suggests the nearest name) or if the value does not parse.
 void SetField(google::protobuf::Message& message, const std::string& path, const std::string& value);
 
 }  // namespace fresco

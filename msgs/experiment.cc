@@ -41,7 +41,7 @@ proto::ExperimentConfig ParseText(const std::string& text, const std::string& or
   google::protobuf::TextFormat::Parser parser;
   parser.RecordErrorsTo(&error);
   if (!parser.ParseFromString(text, &config)) {
-    throw UsageError(error.text() + "; the fields and their meaning stand in msgs/proto/experiment.proto" +
+    throw UsageError(error.text() + "; msgs/proto/experiment.proto explains every field" +
                      DidYouMeanField(error.text()));
   }
   return config;
@@ -52,7 +52,7 @@ void SetCell(proto::Cell& cell, int column, int row) {
   cell.set_row(row);
 }
 
-/// What Protobuf's own defaults can't say: which submessages the paper has, and alternatives.
+/// Fills in what Protobuf's field defaults can't express: submessages, and one choice of each oneof.
 void FillScenario(proto::Scenario& scenario) {
   scenario.mutable_grid();
   scenario.mutable_radio();

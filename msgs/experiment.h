@@ -1,5 +1,5 @@
-// An experiment: a configuration that was read, completed with the paper's values and checked.
-// Everything else may rely on its ranges. Immutable after construction; thread-safe.
+// An experiment is a configuration that was read, completed with the paper's values, and checked. All other
+// code may rely on its ranges. Immutable after construction; any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,25 @@
 
 namespace fresco {
 
-/// path=value settings, in order: {"schedule.seed", "3"}.
+/// Settings of single fields as (path, value), for example {"schedule.seed", "3"}; later ones win.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// An actor takes its configuration from the network: what it says must fit memory. Some dozens of versions
-/// of a network are held at a time, and the outputs of all its units for a batch.
+/// Limits of a network's size. An actor receives its configuration from the bus, so no configuration may take
+/// more memory than a machine has: a program holds some dozens of versions of the parameters at a time, and
+/// the activations (outputs of all units) of one batch.
 inline constexpr int64_t kMaximumParameters = 10'000'000;
 inline constexpr int64_t kMaximumActivations = 40'000'000;
 inline constexpr int kMaximumHiddenLayers = 16;
 
 class Experiment {
  public:
-  /// Parses text format, applies the settings, fills in defaults and checks everything. `origin`
-  /// names the source in errors: a file, or "the run's configuration". Throws UsageError naming
-  /// origin, field, value and what is allowed.
+  /// Parses Protobuf's text format, applies the settings, fills in defaults and checks everything. `origin`
+  /// names the source in errors: a file, or "the run's configuration". Throws UsageError that names origin,
+  /// field, value and what is allowed.
   static Experiment Parse(const std::string& text, const std::string& origin, const Settings& settings = {});
+  /// Does the same with the text of a file. Also throws UsageError if the file can't be read.
   static Experiment Load(const std::string& path, const Settings& settings = {});
-  /// The same from a configuration that was put together in the program.
+  /// Does the same with a configuration message that the program built; there are no settings to apply.
   static Experiment Make(proto::ExperimentConfig config, const std::string& origin);
 
   const proto::ExperimentConfig& config() const { return config_; }
@@ -40,16 +42,18 @@ class Experiment {
   const proto::Run& run() const { return config_.run(); }
   const Scenario& scenario() const { return scenario_; }
 
-  /// The network of this experiment: inputs as NetworkInput has them, outputs 5 (N + 1).
+  /// The layer sizes of this experiment's network: its inputs are those of NetworkInput
+  /// (worlds/uav/network_input.h), its outputs the 5 (N + 1) actions.
   MlpShape network_shape() const;
   NetworkInputOptions network_input_options() const { return {agent().sensor_geometry()}; }
+  /// Which actions the agent's masks forbid.
   MaskOptions mask_options() const;
 
-  /// The complete configuration in text format.
+  /// The complete configuration in text format, with every default written out.
   std::string Text() const;
-  /// What decides the weights (scenario, agent, schedule), in text format.
+  /// The part of the configuration that decides the weights (scenario, agent, schedule), in text format.
   std::string CanonicalText() const;
-  /// CRC-32C of CanonicalText(); never 0.
+  /// CRC-32C of CanonicalText(); never 0. Messages carry it as `config_hash`.
   uint32_t hash() const { return hash_; }
 
  private:

@@ -9,7 +9,7 @@ using google::protobuf::Descriptor;
 using google::protobuf::DescriptorPool;
 using google::protobuf::FieldDescriptor;
 
-/// x of: before"x"; "" if the text has no such part.
+/// Returns the quoted text that follows `before`: x of before"x". Returns "" if there is none.
 std::string QuotedAfter(const std::string& before, const std::string& text) {
   const size_t found = text.find(before + "\"");
   if (found == std::string::npos) {

@@ -21,7 +21,7 @@ void SetState(const World& world, const State& state, flight_t& message) {
 
 std::vector<flight_t> FlightMessages(const World& world, const Flight& flight, const std::string& policy) {
   std::vector<flight_t> messages;
-  Environment environment(world);  // flown once more, for what a flight does not keep
+  Environment environment(world);  // flies the actions again: a Flight does not hold rewards and margins
   flight_t message{};
   message.policy = policy.substr(0, kMaximumPolicyBytes);
   for (const FlightSlot& slot : flight.slots) {

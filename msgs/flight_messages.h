@@ -1,4 +1,5 @@
-// A flight as the messages that `fresco fly` publishes, one a slot. Pure.
+// Turns a flight into the messages that `fresco fly` publishes, one for each slot. Pure functions; any thread
+// may call them.
 #pragma once
 
 #include <string>
@@ -9,8 +10,8 @@
 
 namespace fresco {
 
-/// One message for each slot of the flight, the terminal state included; without identity, and of flight 0.
-/// The name of the policy is cut to kMaximumPolicyBytes.
+/// Returns one message for each slot of the flight and one for its final state. The caller fills in `utime`,
+/// `run_id`, `config_hash` and `flight`. Policy names longer than kMaximumPolicyBytes are cut.
 std::vector<flight_t> FlightMessages(const World& world, const Flight& flight, const std::string& policy);
 
 }  // namespace fresco

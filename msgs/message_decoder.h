@@ -1,6 +1,7 @@
-// Decodes whatever stands in a log or on a bus, by the fingerprint with which LCM begins every message: for
-// those who look at all of it. Programs of a run know what to expect on a channel and use msgs/wire.h.
-// An object belongs to one thread; it keeps its messages, so that it allocates nothing after a while.
+// Decodes messages of any of Fresco's types, for programs that look at a whole log or at all channels. LCM
+// begins every message with a fingerprint of its type, which says how to decode it. (The programs of a run
+// know the type of each channel and use msgs/wire.h.) One thread at a time may use an object. The object
+// reuses its messages, so it stops allocating after a while.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +16,12 @@
 
 namespace fresco {
 
-/// The message without the tag behind it, where it carries one (see CarriesAuthentication). Checks no key.
+/// Returns the message without its authentication tag if it carries one (see CarriesAuthentication),
+/// otherwise the whole message. Does not check the tag.
 std::span<const std::byte> WithoutAuthentication(std::span<const std::byte> bytes);
 
-/// Whether the bytes begin with the fingerprint of this type. LCM's own, which covers every field.
+/// Whether the bytes begin with the fingerprint of this type. LCM computes fingerprints from the names and
+/// types of all fields.
 template <class Message>
 bool BeginsAs(std::span<const std::byte> bytes) {
   return bytes.size() >= sizeof(uint64_t) &&
@@ -28,13 +31,13 @@ bool BeginsAs(std::span<const std::byte> bytes) {
 class MessageDecoder {
  public:
   enum class Result {
-    kDecoded,  ///< and handed to the handler
-    kDamaged,  ///< begins as one of Fresco's, and does not decode
-    kForeign,  ///< none of Fresco's
+    kDecoded,  ///< the handler was called
+    kDamaged,  ///< the fingerprint is that of a Fresco message, but the rest does not decode
+    kForeign,  ///< not a Fresco message
   };
 
-  /// Calls `handler(const Message&)` for what the bytes are, with or without an authentication tag behind
-  /// them. The message is valid until the next call.
+  /// Decodes the bytes and calls `handler(const Message&)` with the message. An authentication tag behind the
+  /// message is ignored. The message is valid until the next call.
   template <class Handler>
   Result Decode(std::span<const std::byte> bytes, Handler&& handler) {
     Result result = Result::kForeign;

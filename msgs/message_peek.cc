@@ -28,7 +28,7 @@ RunIdentity IdentityAt(std::span<const std::byte> bytes) {
           static_cast<uint32_t>(IntegerAt<int64_t>(bytes, Fields::config_hash_offset))};
 }
 
-/// The bytes that a transitions_t with these counts has.
+/// The size in bytes of a transitions_t with the counts that this encoding has.
 size_t TransitionsBytes(std::span<const std::byte> encoding) {
   const auto count = [&](size_t offset) { return static_cast<size_t>(IntegerAt<int32_t>(encoding, offset)); };
   return Fields::EncodedBytes(count(Fields::transition_count_offset), count(Fields::state_count_offset),

@@ -1,5 +1,5 @@
-// A look at what stands at fixed places of a message, without decoding the rest: for those who go through
-// logs of gigabytes. Pure.
+// Reads the fields of a message that have a fixed offset, without decoding the rest: fast enough for logs of
+// gigabytes. Pure functions; any thread may call them.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,25 @@
 
 namespace fresco {
 
-/// Which of Fresco's messages the bytes begin as, by its name ("run_t"); nullptr: none.
+/// The name of the Fresco type whose fingerprint the bytes begin with ("run_t"), or nullptr if there is none.
 const char* PeekType(std::span<const std::byte> bytes);
 
-/// The run of a message that begins as one of Fresco's; nullopt for all others. The message may be damaged.
+/// The run that a message belongs to; nullopt if the bytes do not begin with the fingerprint of a Fresco
+/// type. Checks nothing else, so the message may still be damaged.
 std::optional<RunIdentity> PeekIdentity(std::span<const std::byte> bytes);
 
-/// What a transitions_t is about.
+/// The fixed fields of a transitions_t; see msgs/lcm/transitions_t.lcm.
 struct TransitionsHeader {
   RunIdentity identity;
   int32_t transition_count = 0;
   int64_t order_index = 0;
   int64_t actor_id = 0;
   int32_t first_transition = 0;
-  bool ends_episode = false;
+  bool ends_episode = false;  ///< the last of these transitions is terminal
 };
 
-/// For bytes that decode as transitions_t (their CRC is looked at), with or without an authentication tag;
-/// nullopt for all others.
+/// Reads the header if the bytes are a valid transitions_t (its CRC is checked), with or without an
+/// authentication tag; otherwise returns nullopt.
 std::optional<TransitionsHeader> PeekTransitions(std::span<const std::byte> bytes);
 
 }  // namespace fresco

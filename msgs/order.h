@@ -1,4 +1,5 @@
-// An order: which episode to fly, and everything that its transitions follow from. Plain values.
+// An order tells an actor which episode to fly. It holds every input that decides the episode's transitions.
+// Plain values; pure functions, which any thread may call.
 #pragma once
 
 #include <cstdint>
@@ -7,27 +8,30 @@
 
 namespace fresco {
 
+/// A training episode explores and goes into the replay memory; an evaluation is greedy and does not.
 enum class OrderKind : int8_t { kTrain = 0, kEvaluate = 1 };
 
 struct Order {
-  int64_t index = 0;  ///< position in the run's sequence of orders: 0, 1, ..; no random draw depends on it
-  OrderKind kind = OrderKind::kTrain;
-  double epsilon = 0;  ///< probability of a random action, in [0, 1]; 0 for an evaluation
-  uint64_t seed = 0;   ///< of the episode's random streams; an evaluation draws nothing
-  int32_t current_version = 0;
-  int32_t target_version = 0;
+  int64_t index = 0;                   ///< position in the run's sequence of orders, 0 .. 2^32 - 1
+  OrderKind kind = OrderKind::kTrain;  ///< train or evaluate
+  double epsilon = 0;                  ///< probability of a random action, 0 .. 1; 0 for an evaluation
+  uint64_t seed = 0;                   ///< seed of the episode's random draws; an evaluation draws nothing
+  int32_t current_version = 0;         ///< version of the network that chooses the actions, >= 0
+  int32_t target_version = 0;  ///< version of the network used in the temporal-difference errors, >= 0
   bool operator==(const Order&) const = default;
 };
 
-/// The most orders that a run with this window has in flight: every training order of the window can have an
-/// evaluation before it.
+/// The largest number of orders in flight in a run whose schedule.window is `window` (>= 1): `window`
+/// training orders, and at most one evaluation for each of them.
 inline int64_t MaximumOrdersInFlight(int32_t window) {
   return 2 * int64_t{window};
 }
 
-/// Which of the two networks a version is of.
+/// Which of the two networks is meant.
 enum class NetworkKind : int8_t { kCurrent = 0, kTarget = 1 };
 
+/// The message for an order that `actor_id` (not 0) shall fly; `attempt` >= 0 counts how often the order was
+/// given out before.
 inline order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
   order_t wire{};
   wire.index = order.index;
@@ -41,7 +45,7 @@ inline order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
   return wire;
 }
 
-/// False where a value is out of range.
+/// Reads an order from a message. Returns false if a value is out of range; `order` is then of no use.
 inline bool FromWire(const order_t& wire, Order& order) {
   order = {wire.index,           static_cast<OrderKind>(wire.kind),
            wire.epsilon,         static_cast<uint64_t>(wire.seed),

@@ -18,7 +18,7 @@ std::filesystem::path ReadyFolder() {
   return SharedFolder() / "configs";
 }
 
-/// NAME of NAME, NAME.textproto and configs/NAME.textproto.
+/// Returns NAME for NAME, NAME.textproto and configs/NAME.textproto.
 std::string ReadyName(const std::string& config) {
   std::filesystem::path path(config);
   if (path.parent_path() == "configs") {
@@ -31,7 +31,7 @@ std::string ReadyName(const std::string& config) {
 
 std::vector<std::string> ReadyExperiments() {
   std::vector<std::string> names;
-  std::error_code error;  // no folder: no experiment
+  std::error_code error;  // ignored: without a folder there are no experiments
   for (const auto& entry : std::filesystem::directory_iterator(ReadyFolder(), error)) {
     if (entry.path().extension() == kExtension) {
       names.push_back(entry.path().stem().string());

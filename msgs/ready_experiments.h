@@ -1,4 +1,5 @@
-// The ready experiments that are installed with Fresco, and what --config means: one rule for every program.
+// Finds the experiments that are installed with Fresco, and decides what --config means, for every program
+// alike. Reads the file system; any thread may call these functions.
 #pragma once
 
 #include <string>
@@ -6,18 +7,19 @@
 
 namespace fresco {
 
-/// The experiment that is run if none is named.
+/// The experiment that runs if --config is not given.
 inline constexpr char kDefaultExperiment[] = "quick";
 
-/// Their names, in alphabetical order: {"ci", "paper", ...}. Empty if this installation has none.
+/// The names of the installed experiments in alphabetical order, for example {"ci", "paper", ...}. Empty if
+/// the installation has none.
 std::vector<std::string> ReadyExperiments();
 
-/// The file that `config` stands for: a path that exists stands for itself; otherwise NAME, NAME.textproto
-/// and configs/NAME.textproto stand for the ready experiment NAME. Throws UsageError that lists them if
-/// `config` is neither.
+/// Returns the path of the file that `config` names. If the path `config` exists, it is that path. Otherwise
+/// NAME, NAME.textproto and configs/NAME.textproto all mean the installed experiment NAME. Throws UsageError
+/// that lists the installed experiments if `config` is neither.
 std::string ExperimentPath(const std::string& config);
 
-/// The help of --config: the rule in short, the ready experiments and what holds without the option.
+/// The help text of --config: the rule in short, the installed experiments, and the default (`without_it`).
 std::string ConfigHelp(const std::string& without_it = kDefaultExperiment);
 
 }  // namespace fresco

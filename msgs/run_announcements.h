@@ -1,5 +1,5 @@
-// Puts FRESCO_RUN's parts together until a run's whole configuration is here. Holds the parts of one
-// run at a time, so memory is bounded. Not thread-safe.
+// Joins the parts of a configuration that arrive on FRESCO_RUN. Holds the parts of one run at a time, so its
+// memory is bounded. An actor owns one. Not thread-safe.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,8 @@ namespace fresco {
 
 class RunAnnouncements {
  public:
-  /// Takes a part. Returns the configuration's text once every part of one run is here.
+  /// Adds a part. Returns the configuration's text if every part of the run is here, otherwise nullopt. A
+  /// part of another run discards the parts of the run before. Ignores a part whose index is out of range.
   std::optional<std::string> Add(const run_t& message);
 
  private:

@@ -6,7 +6,7 @@
 namespace fresco {
 namespace {
 
-/// Everything but the sensors.
+/// A message with everything but the sensors.
 scenario_t FieldOf(const Scenario& scenario) {
   scenario_t message{};
   message.total_sensors = static_cast<int32_t>(scenario.sensors.size());

@@ -1,4 +1,4 @@
-// A scenario as messages for those who draw it. Pure.
+// Turns a scenario into messages for viewers that draw it. Pure functions; any thread may call them.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace fresco {
 
-/// As many messages as the sensors need, without their identity.
+/// Returns as many messages as the sensors need, at most kMaximumSensorsPerScenario in each. The caller fills
+/// in `utime`, `run_id` and `config_hash`.
 std::vector<scenario_t> ScenarioMessages(const Scenario& scenario);
 
 }  // namespace fresco

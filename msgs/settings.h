@@ -1,4 +1,5 @@
-// path=value settings of command lines. Pure.
+// Parses values of the command line: path=value settings and run ids. Pure functions; any thread may call
+// them.
 #pragma once
 
 #include <string>
@@ -8,10 +9,11 @@
 
 namespace fresco {
 
-/// {"schedule.seed=3"} -> {{"schedule.seed", "3"}}. Throws UsageError where there is no path or no '='.
+/// Splits each path=value: {"schedule.seed=3"} becomes {{"schedule.seed", "3"}}. Throws UsageError if the
+/// path or the '=' is missing.
 Settings ParseSettings(const std::vector<std::string>& arguments);
 
-/// The 64-bit id that 1 to 16 hexadecimal digits stand for. Throws UsageError otherwise, and for 0.
+/// Parses 1 to 16 hexadecimal digits as a 64-bit id. Throws UsageError for any other text, and for 0.
 int64_t ParseRunId(const std::string& text);
 
 }  // namespace fresco

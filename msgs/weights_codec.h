@@ -1,4 +1,5 @@
-// Networks as chunks that each fit one Ethernet frame, and back. Pure.
+// Splits a network's parameters into chunks that each fit one Ethernet frame, and checks chunks that arrive.
+// Pure functions; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,15 @@
 
 namespace fresco {
 
-/// Chunks of a version of `parameters` values.
+/// The number of chunks of a network with `parameters` (>= 1) values.
 int ChunkCount(int64_t parameters);
 
-/// Chunk `chunk` of a version, without its identity.
+/// Returns chunk number `chunk`, 0 .. ChunkCount - 1, of a version. `values` are all its parameters, `crc32c`
+/// is their CRC-32C. The caller fills in `utime`, `run_id` and `config_hash`.
 weights_t WeightsChunk(std::span<const float> values, uint32_t crc32c, int32_t version, int chunk);
 
-/// Which chunk the message is, or -1 where offset and count are not those of a chunk of a network
-/// of `parameters` values.
+/// Returns the number of the chunk that the message holds, or -1 if its offset and counts are not those of
+/// any chunk of a network with `parameters` values.
 int ChunkIndex(const weights_t& message, int64_t parameters);
 
 }  // namespace fresco

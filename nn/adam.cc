@@ -19,12 +19,14 @@ void Adam::Step(std::span<const float> gradient, double learning_rate, std::span
   state_.beta2_power *= options_.beta2;
   const auto beta1 = static_cast<float>(options_.beta1);
   const auto beta2 = static_cast<float>(options_.beta2);
-  // The bias corrections folded into step size and epsilon: the same step as with m_hat and v_hat.
+  // The bias corrections are part of step size and epsilon here. The step is the same as with m_hat and
+  // v_hat.
   const double root = std::sqrt(1 - state_.beta2_power);
   const auto step_size = static_cast<float>(learning_rate * root / (1 - state_.beta1_power));
   const auto epsilon = static_cast<float>(options_.epsilon * root);
-  // A plain loop: every operation is correctly rounded, so an entry's bits depend neither on its place
-  // nor on how the compiler vectorises (Eigen's packed square root is an approximation).
+  // A plain loop instead of Eigen, whose vectorised square root is an approximation. Here every operation is
+  // correctly rounded, so the bits of an entry depend neither on its position nor on how the compiler
+  // vectorises.
   const float* __restrict g = gradient.data();
   float* __restrict p = parameters.data();
   float* __restrict m = state_.first_moment.data();

@@ -1,4 +1,5 @@
-// Adam (Kingma and Ba, 2015, Algorithm 1), single precision, fixed order of operations.
+// The optimiser Adam (Kingma and Ba, 2015, Algorithm 1) in single precision. Its operations have a fixed
+// order, so equal inputs give equal bits. Dqn owns one. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -9,33 +10,36 @@
 namespace fresco {
 
 struct AdamOptions {
-  double beta1 = 0.9;
-  double beta2 = 0.999;
-  double epsilon = 1e-8;
+  double beta1 = 0.9;     ///< decay of the first moment, 0 <= beta1 < 1
+  double beta2 = 0.999;   ///< decay of the second moment, 0 <= beta2 < 1
+  double epsilon = 1e-8;  ///< > 0
 };
 
-/// The moments of one parameter vector. Not thread-safe.
+/// Holds the moments of one parameter vector.
 class Adam {
  public:
+  /// Begins with zero moments for `parameter_count` (>= 1) parameters.
   Adam(int64_t parameter_count, AdamOptions options);
 
-  /// What the moments take of memory.
+  /// The memory of the moments, bytes.
   static int64_t BytesFor(int64_t parameter_count) {
     return 2 * parameter_count * static_cast<int64_t>(sizeof(Vector::Scalar));
   }
 
-  /// One step: parameters -= learning_rate * m_hat / (sqrt(v_hat) + epsilon).
+  /// Makes one step: parameters -= learning_rate * m_hat / (sqrt(v_hat) + epsilon). Both spans have
+  /// parameter_count entries; CHECKs that.
   void Step(std::span<const float> gradient, double learning_rate, std::span<float> parameters);
 
-  /// Everything that a checkpoint needs to go on bit for bit.
+  /// Everything that the optimiser needs to continue with the same bits.
   struct State {
     int64_t steps = 0;
-    double beta1_power = 1.0;  ///< beta1^steps as accumulated
-    double beta2_power = 1.0;
-    Vector first_moment;
-    Vector second_moment;
+    double beta1_power = 1.0;  ///< beta1^steps, as multiplied step by step
+    double beta2_power = 1.0;  ///< beta2^steps, as multiplied step by step
+    Vector first_moment;       ///< [parameter_count]
+    Vector second_moment;      ///< [parameter_count]
   };
   const State& state() const { return state_; }
+  /// Replaces the state. CHECKs the sizes of the moments.
   void Restore(State state);
 
  private:

@@ -9,14 +9,14 @@
 namespace fresco {
 namespace {
 
-// Eigen chooses the blocking of a product from the processor's cache sizes, and with the blocking
-// the order of additions: fixed sizes give the same bits on every host.
+// Eigen divides a product into blocks by the processor's cache sizes, and the blocks decide the order of
+// additions. Fixed sizes give the same bits on every host.
 [[maybe_unused]] const bool kCacheSizesAreFixed = [] {
   Eigen::setCpuCacheSizes(32 * 1024, 512 * 1024, 4 * 1024 * 1024);
   return true;
 }();
 
-// The columns of a product have the same bits for every width that is a multiple of this.
+// A column of a product has the same bits for every width that is a multiple of this.
 constexpr int kColumnMultiple = 8;
 
 int Padded(int batch) {
@@ -106,7 +106,7 @@ void Mlp::Backward(std::span<const float> parameters, int batch, const Matrix& o
     weights_gradient.noalias() = above * below.transpose();
     biases_gradient = above.col(0);
     for (int column = 1; column < batch; ++column) {
-      biases_gradient += above.col(column);  // one order of additions, whatever the alignment
+      biases_gradient += above.col(column);  // one by one: the order of additions is fixed
     }
     if (layer > 0) {
       auto next = gradients[static_cast<size_t>(layer)].leftCols(batch);

@@ -1,10 +1,11 @@
-// The multilayer perceptron: fully connected layers, ReLU between them, linear output. Parameters
-// are one flat vector, so that the optimiser, the target copy, the wire and the checkpoint all see
-// the same array. Single precision. Pure: no I/O, no clock, no hidden randomness; every reduction
-// has a fixed order, so the same binary gives the same bits on the same instruction set.
+// The multilayer perceptron: fully connected layers with ReLU between them and a linear output, in single
+// precision. All parameters are one flat vector, which the optimiser, the target network, the messages and
+// the checkpoints share as their format. No I/O, no clock, no hidden randomness. Every sum has a fixed order,
+// so the same binary gives the same bits on the same instruction set. MlpShape and Mlp are immutable, so any
+// number of threads may share them.
 //
-// A batch is a matrix with one observation a column. The output of an observation has the same bits
-// whatever the width of its batch, its column and the other columns are.
+// A batch is a matrix in which each column is one observation. The output of an observation has the same bits
+// in every batch, whatever the batch's width, the observation's column and the other columns.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +19,12 @@ namespace fresco {
 using Matrix = Eigen::MatrixXf;  ///< column-major, [units x batch]
 using Vector = Eigen::VectorXf;
 
-/// The sizes of a network and where each layer's parameters stand in the flat vector: for every
-/// layer its weights [outputs x inputs], column-major, then its biases [outputs].
+/// The layer sizes of a network, and the position of each layer's parameters in the flat vector. A layer has
+/// its weights [outputs x inputs], column by column, then its biases [outputs].
 class MlpShape {
  public:
-  /// layer_sizes: inputs, hidden layers' units, outputs; at least two entries, each >= 1.
+  /// `layer_sizes`: number of inputs, units of each hidden layer, number of outputs. CHECKs that there are at
+  /// least two entries, each >= 1.
   explicit MlpShape(std::vector<int> layer_sizes);
 
   int inputs() const { return layer_sizes_.front(); }
@@ -40,48 +42,49 @@ class MlpShape {
 
  private:
   std::vector<int> layer_sizes_;
-  std::vector<int64_t> offsets_;  // where each layer begins; one more entry for the end
+  std::vector<int64_t> offsets_;  // where each layer's parameters begin, and where the last one's end
 };
 
-/// He-uniform weights, U(-sqrt(6 / inputs), sqrt(6 / inputs)), and zero biases, drawn from the
-/// counter-based stream of `seed`: version 0 of both networks.
+/// Returns the initial parameters, which are version 0 of both networks: He-uniform weights, U(-sqrt(6 /
+/// inputs), sqrt(6 / inputs)), and zero biases. They depend on the shape and the seed only (core/random.h).
 Vector InitialParameters(const MlpShape& shape, uint64_t seed);
 
-/// The activations of one forward pass, reused from pass to pass: no allocation once warm.
-/// Not thread-safe; one workspace per thread.
+/// Holds the activations of a forward pass and the gradients of a backward pass, so that passes do not
+/// allocate (the first backward pass does). Not thread-safe; each thread has a workspace of its own.
 class MlpWorkspace {
  public:
+  /// `batch_capacity` (>= 1): the largest batch.
   MlpWorkspace(const MlpShape& shape, int batch_capacity);
 
-  /// What a workspace takes of memory: for Forward alone, or for Backward, too.
+  /// The memory of a workspace, bytes. `backward` says whether Backward is used, too.
   static int64_t BytesFor(const MlpShape& shape, int batch_capacity, bool backward);
 
-  /// Where the caller writes the observations before Forward: [inputs x batch_capacity].
+  /// The observations, which the caller writes before Forward: [inputs x at least batch_capacity].
   Matrix& input() { return activations_.front(); }
 
-  /// The outputs of the last Forward: [outputs x batch_capacity]; columns from the batch size on are
-  /// meaningless.
+  /// The outputs of the last Forward: [outputs x at least batch_capacity]. Only the columns of the batch have
+  /// a meaning.
   const Matrix& output() const { return activations_.back(); }
 
  private:
   friend class Mlp;
-  std::vector<Matrix> activations_;  // [0] the input, [l + 1] the output of layer l
+  std::vector<Matrix> activations_;  // [0] is the input, [l + 1] is the output of layer l
   std::vector<Matrix> gradients_;  // d loss / d (output of layer l before ReLU); sized by the first Backward
 };
 
-/// The network's arithmetic; holds no parameters of its own.
+/// Computes outputs and gradients of a network of one shape. It holds no parameters.
 class Mlp {
  public:
   explicit Mlp(MlpShape shape) : shape_(std::move(shape)) {}
   const MlpShape& shape() const { return shape_; }
 
-  /// output = network(input) for the first `batch` columns of the workspace. `parameters` has
-  /// parameter_count() entries; 1 <= batch <= the workspace's capacity.
+  /// Computes the outputs of the first `batch` columns of the workspace's input. CHECKs that `parameters` has
+  /// parameter_count() entries and that 1 <= batch <= the workspace's capacity.
   void Forward(std::span<const float> parameters, int batch, MlpWorkspace& workspace) const;
 
-  /// Gradient of a loss with respect to the parameters, given d loss / d output [outputs x batch]
-  /// of the last Forward on this workspace with the same parameters and batch. Overwrites
-  /// `gradient` (parameter_count() entries).
+  /// Computes the gradient of a loss with respect to the parameters and writes it to `gradient`
+  /// (parameter_count() entries). `output_gradient` [outputs x batch] is d loss / d output of the last
+  /// Forward on this workspace, which had the same parameters and batch.
   void Backward(std::span<const float> parameters, int batch, const Matrix& output_gradient,
                 MlpWorkspace& workspace, std::span<float> gradient) const;
 
@@ -89,9 +92,9 @@ class Mlp {
   MlpShape shape_;
 };
 
-/// CRC-32C over the outputs of a fixed network on fixed observations: two programs with the same
-/// value do arithmetic alike, so the learner can refuse an actor whose binary or instruction set
-/// would break bit-identity.
+/// Returns the CRC-32C of the outputs of a fixed network on fixed observations. Two programs with the same
+/// value do arithmetic alike. An actor with another value than the learner's does not fly, since its binary
+/// or instruction set would give other bits. Computed at the first call; any thread may call it.
 uint32_t ArithmeticFingerprint();
 
 }  // namespace fresco

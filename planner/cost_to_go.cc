@@ -46,7 +46,8 @@ CostToGo::Place CostToGo::PlaceOf(int slot, int number) const {
   return {costs_.get() + Offset(slot, number), options_.lowest_aoi, HighestAoi(slot)};
 }
 
-// best_next_: for each AoI in the next slot, the cheapest cell to be over then.
+// Writes to best_next_, for each AoI in the next slot, the least cost over the cells that the UAV can move
+// to.
 void CostToGo::TakeBestNext(const PlannerProblem& problem, int slot, int cell, int32_t dear_share) {
   const int width = Width(slot + 1);
   std::fill_n(best_next_.begin(), width, std::numeric_limits<int32_t>::max());
@@ -64,7 +65,8 @@ void CostToGo::TakeBestNext(const PlannerProblem& problem, int slot, int cell, i
   }
 }
 
-// The slot's own cost and price, plus the best of the next slot, served now or not.
+// The cost over a cell is the slot's own cost and price, plus the least cost of the next slot, where the
+// sensor may be served now or not.
 void CostToGo::ComputePlace(const PlannerProblem& problem, const WholePrices& prices, int slot, int number) {
   const bool last_slot = slot == problem.slots();
   const int cell = slot_cells_->At(slot)[static_cast<size_t>(number)];

@@ -11,8 +11,8 @@ constexpr double kNever = 1e300;
 
 }  // namespace
 
-// Breadth first from all cells that cover the sensor; flights may go anywhere on the grid, so the
-// distances are exact.
+// A breadth-first search from all cells that cover the sensor. Flights may cross every cell of the grid, so
+// the distances are exact.
 CoverageDistances::CoverageDistances(const PlannerProblem& problem, WorkMeter& meter)
     : cells_(static_cast<size_t>(problem.cells())) {
   constexpr int64_t kUnitsPerCell = 64;

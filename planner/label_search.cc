@@ -9,13 +9,14 @@
 namespace fresco {
 namespace {
 
-// The cell from which a move leads here is where the opposite move leads.
+// Returns the opposite move, which leads to the cell from which `move` leads here.
 Move Opposite(Move move) {
   constexpr std::array kOpposite = {Move::kSouth, Move::kNorth, Move::kWest, Move::kEast, Move::kHover};
   return kOpposite[static_cast<size_t>(move)];
 }
 
-/// The `width` labels of least bound, ascending in index; `least_dropped` takes in the others' bounds.
+/// Returns the indices of the `width` labels with the least bounds, ascending. Lowers `least_dropped` to the
+/// least bound of the other labels.
 std::vector<size_t> MostPromising(const std::vector<int64_t>& bound, size_t width, int64_t* least_dropped) {
   std::vector<size_t> order(bound.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -69,11 +70,12 @@ class Search {
   size_t width_;
   WorkMeter& meter_;
   size_t sensors_;
-  Labels labels_;             // of the present slot
-  Labels next_;               // of the next slot
-  int64_t cutoff_ = kNoCost;  // labels of the next slot with this bound or more would be cut
-  Labels candidates_;         // of the next slot over one cell
-  std::vector<double> gaps_;  // of the candidates, see Undominated::Beat
+  Labels labels_;             // labels of the present slot
+  Labels next_;               // labels of the next slot
+  int64_t cutoff_ = kNoCost;  // a label of the next slot with this bound or more would be dropped for lack of
+                              // room
+  Labels candidates_;         // labels of the next slot over one cell, before dominance
+  std::vector<double> gaps_;  // gaps of the candidates, see Undominated::Beat
   std::vector<int32_t> range_of_cell_;
   std::vector<int16_t> child_aoi_;
   Undominated undominated_;
@@ -111,7 +113,7 @@ void Search::Begin() {
   history_ = {labels_.trails};
 }
 
-/// From the labels of a slot to those of the next one; false where the meter has stopped.
+/// Replaces the labels of a slot by those of the next one. Returns false if the meter has stopped.
 bool Search::AdvanceFrom(int slot) {
   next_.Clear();
   cutoff_ = kNoCost;
@@ -156,7 +158,8 @@ std::vector<int32_t> Search::NextCells() const {
   return cells;
 }
 
-/// All children over `cell` at the beginning of slot + 1, from the labels over it and its neighbours.
+/// Generates all children over `cell` at the beginning of slot + 1 from the labels over it and its
+/// neighbours.
 void Search::Generate(int slot, int32_t cell) {
   candidates_.Clear();
   gaps_.clear();
@@ -182,8 +185,8 @@ void Search::Generate(int slot, int32_t cell) {
   }
 }
 
-/// One child for each covered sensor that may transmit, or one where none is covered: serving a sensor
-/// is never worse than serving none.
+/// Generates one child for each covered sensor, which transmits; or one child without a transmission if no
+/// sensor is covered, since serving a sensor is never worse than serving none.
 void Search::Branch(size_t parent, int dear, int32_t from, Move move, const Dominance& dominance,
                     LowerBound::OverCell& bound) {
   const int16_t* aoi = labels_.aoi.data() + parent * sensors_;
@@ -213,7 +216,7 @@ void Search::AddChild(size_t parent, int64_t cost, int dear, int schedule, Move 
                       const Dominance& dominance, LowerBound::OverCell& bound) {
   constexpr int64_t kUnitsPerSensor = 16;
   meter_.Count(static_cast<int64_t>(sensors_) * kUnitsPerSensor);
-  // A child's bound is its parent's at least.
+  // A child's bound is at least that of its parent.
   const int64_t least = std::max(labels_.bound[parent], cost + bound(child_aoi_.data(), dear));
   if (least >= limit_ || !TakeGaps(cost, dominance, bound)) {
     return;
@@ -231,7 +234,8 @@ void Search::AddChild(size_t parent, int64_t cost, int dear, int schedule, Move 
   candidates_.trails.push_back({static_cast<uint32_t>(parent), static_cast<int16_t>(schedule), move});
 }
 
-/// Appends the child's gaps; false where a sensor can't be served in time for a flight below the limit.
+/// Appends the child's gaps. Returns false if some sensor can't be served early enough for a flight below the
+/// limit.
 bool Search::TakeGaps(int64_t cost, const Dominance& dominance, const LowerBound::OverCell& bound) {
   const size_t begin = gaps_.size();
   gaps_.resize(begin + sensors_);
@@ -301,7 +305,7 @@ void Search::CutNext() {
   std::swap(next_, kept);
 }
 
-/// Over the stop at slot T, with the last slot's cost added; if it is below the limit.
+/// Takes the best label over the stop at slot T, after adding the last slot's cost, if it is below the limit.
 void Search::TakeBestFlight() {
   int64_t least = limit_;
   size_t label = 0;
@@ -336,7 +340,8 @@ LabelSearchResult SearchLabels(const PlannerProblem& problem, const LowerBound& 
 }
 
 int64_t BytesPerLabel(const PlannerProblem& problem) {
-  // This slot's labels, the next one's before they are cut, the candidates of a cell, growing vectors.
+  // Counts this slot's labels, the next slot's before the drop, one cell's candidates, and spare room of
+  // vectors.
   constexpr int64_t kCopies = 12;
   return kCopies * Labels::Bytes(problem.size()) + problem.slots() * static_cast<int64_t>(sizeof(Trail));
 }

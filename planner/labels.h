@@ -1,5 +1,6 @@
-// The labels of one slot, laid out by field: each is a way to be over a cell at the beginning of the slot,
-// with the AoI and the cost that it brought. A part of the exact planner.
+// The labels of one slot, stored by field. A label is a partial flight: a way to be over a cell at the
+// beginning of the slot, with the AoI and the cost that it has led to. A plain value. Part of the exact
+// planner.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace fresco {
 
-/// How a label came to be: from which label of the slot before, by which action.
+/// The label of the slot before that a label extends, and the action that led from there.
 struct Trail {
   uint32_t parent = 0;
   int16_t schedule = 0;
@@ -17,18 +18,18 @@ struct Trail {
 };
 
 struct Labels {
-  /// Those over one cell, side by side.
+  /// The labels over one cell are neighbours: begin .. end - 1.
   struct Range {
     int32_t cell;
     size_t begin;
     size_t end;
   };
   std::vector<Range> ranges;
-  std::vector<int64_t> cost;   // of the slots before this one
-  std::vector<int64_t> bound;  // on the whole cost of a flight that goes on from here
+  std::vector<int64_t> cost;   // cost of the slots before this one
+  std::vector<int64_t> bound;  // lower bound of the whole cost of any flight that continues the label
   std::vector<int64_t> least;  // Dominance::LeastCost
-  std::vector<int32_t> dear;   // dear slots so far
-  std::vector<int16_t> aoi;    // one entry a sensor
+  std::vector<int32_t> dear;   // dear slots so far (PlannerProblem::IsDear)
+  std::vector<int16_t> aoi;    // [labels x sensors]
   std::vector<Trail> trails;
 
   size_t size() const { return cost.size(); }

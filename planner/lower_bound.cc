@@ -8,7 +8,7 @@
 namespace fresco {
 namespace {
 
-// So that a table's largest value fits an int32_t: costs up to 2^28, prices of dear slots up to 2^28,
+// These limits let a table's largest value fit an int32_t: costs up to 2^28, prices of dear slots up to 2^28,
 // prices of places up to 2^30.
 constexpr double kLargestTableCost = 1 << 28;
 constexpr double kLargestPriceSum = 1 << 30;
@@ -21,8 +21,8 @@ TableUnits ChooseUnits(const PlannerProblem& problem) {
   return {std::min(kLargestShift, static_cast<int>(std::floor(std::log2(kLargestTableCost / cost))))};
 }
 
-// The presence of all sensors and the transmission in one place, rounded so that they sum to zero.
-// Where a price would be too large, there is none.
+// Rounds the presence prices of all sensors and the transmission price of one place so that they sum to zero.
+// If a price would be too large, all are zero.
 void Round(const float* presence, float transmission, size_t sensors, double scale, double largest,
            int32_t* whole_presence, int32_t* whole_transmission) {
   const double transmission_value = std::floor(transmission * scale);
@@ -78,7 +78,8 @@ LowerBound::LowerBound(const PlannerProblem& problem, int64_t memory_bytes, Work
   }
 }
 
-// Where the tables would not fit, they have no imagined AoI, and then the AoI is told apart less far.
+// Makes the tables smaller until they fit: first they lose the AoI below 1, then the limit of the AoI is
+// halved again and again. Returns whether they fit.
 bool LowerBound::ChooseSizes(int64_t memory_bytes) {
   lowest_aoi_ = problem_->is_capped() ? 1 : 1 - problem_->slots();
   if (BytesToBuild() > memory_bytes) {
@@ -152,9 +153,10 @@ int64_t LowerBound::OverCell::operator()(const int16_t* aoi, int dear) {
   return bound_->units_.CostOf(sum_);
 }
 
-// Of the flights from here on, let those in which the sensor's AoI goes on growing for k slots or more
-// cost it C at its prices. With an AoI lower by d the same flights would cost it C - k weight d at most,
-// but no less than the table's optimum for that AoI. So C is at least that optimum + k weight d.
+// Let C be the sensor's least cost, at its prices, among the flights from here that leave it unserved for k
+// slots or more. If its AoI were lower by d, the same flight would cost at most C - k weight d, but not less
+// than the table's optimum for that lower AoI. So C is at least that optimum plus k weight d, and a C that
+// may not exceed `most` limits k.
 int LowerBound::OverCell::LongestUnserved(int sensor, int aoi, int64_t limit) const {
   const auto n = static_cast<size_t>(sensor);
   const int64_t weight = bound_->units_.Weight(bound_->problem_->weights()[n]);
@@ -163,10 +165,11 @@ int LowerBound::OverCell::LongestUnserved(int sensor, int aoi, int64_t limit) co
     return slots_left_;
   }
   const CostToGo::Place& place = places_[n];
-  const int64_t most = bound_->units_.ValueOf(limit) - 1 - (sum_ - values_[n]);  // it may cost
+  const int64_t most = bound_->units_.ValueOf(limit) - 1 - (sum_ - values_[n]);  // the most that the sensor
+                                                                                 // may cost
   double longest = slots_left_;
   for (int lower = 1; aoi - lower >= place.lowest_aoi; lower *= 2) {
-    // (Where a double rounds a quotient, then not below the whole number that it reaches.)
+    // Rounding in double never takes a quotient below the largest whole number that it reaches.
     const auto saved = static_cast<double>(weight * lower);
     longest = std::min(longest, static_cast<double>(most - place.At(aoi - lower)) / saved);
   }

@@ -41,8 +41,8 @@ class Planner {
   PlannerProblem problem_;
   WorkMeter meter_;
   Plan plan_;
-  int64_t cost_ = kNoCost;  // of plan_.flight
-  int64_t proved_ = 0;      // no flight costs less
+  int64_t cost_ = kNoCost;  // cost of plan_.flight
+  int64_t proved_ = 0;      // proved so far: no flight costs less
 };
 
 bool Planner::KeepGoing(const SearchProgress& progress) const {
@@ -72,8 +72,8 @@ void Planner::BeginWithBaselines() {
   }
 }
 
-// Wider and wider passes: the first ones are quick and find flights, the better the flight known, the
-// fewer labels the last one has to follow.
+// Searches in passes of growing width. The first passes are quick and find good flights, and with a good
+// flight known the last pass has to follow fewer labels.
 void Planner::Search() {
   const LowerBound lower_bound(problem_, options_.memory_bytes * 7 / 8, meter_);
   proved_ = std::min(cost_, lower_bound.OfAnyFlight());

@@ -8,12 +8,14 @@
 namespace fresco {
 namespace {
 
-// A flight's cost stays below 2^50, and sums of a few such numbers are exact in a double.
+// The largest weight with which a flight's cost stays below 2^50. Sums of a few such numbers are exact in a
+// double.
 double LargestWholeWeight(int sensors, int slots) {
   return std::floor(std::ldexp(1.0, 50) / (sensors * (slots * (slots + 1.0) / 2)));
 }
 
-// But for the rounding of decimal fractions in double and of a division and a product.
+// Whether all products are whole numbers, with a tolerance for the rounding of decimal fractions, of a
+// division and of a product in double.
 bool AllWhole(const std::vector<double>& weights, double factor) {
   constexpr double kTolerance = 4e-15;
   return std::all_of(weights.begin(), weights.end(), [&](double weight) {
@@ -21,11 +23,11 @@ bool AllWhole(const std::vector<double>& weights, double factor) {
   });
 }
 
-// The factor that makes the weights whole numbers, none above `limit`; 0 where none is found.
+// Returns a factor that makes all weights whole numbers of at most `limit`; 0 if none is found.
 double WholeFactor(const std::vector<double>& weights, double limit) {
   constexpr int kMostParts = 100000;
   const auto [smallest, largest] = std::minmax_element(weights.begin(), weights.end());
-  // If they are multiples of a common fraction, then it is some part of the smallest weight.
+  // If they are multiples of a common fraction, the smallest weight is a multiple of it, too.
   for (int parts = 1; parts <= kMostParts && *largest / *smallest * parts <= limit; ++parts) {
     if (AllWhole(weights, parts / *smallest)) {
       return parts / *smallest;
@@ -79,7 +81,7 @@ void PlannerProblem::TakeEnergies() {
   const double budget_j = world_->scenario().initial_energy_j - moves * cheap_energy_j_;
   energy_binds_ = budget_j < moves * extra_energy_j_;
   dear_slots_ = moves;
-  while (dear_slots_ * extra_energy_j_ > budget_j) {  // exact, as World rounds its energies
+  while (dear_slots_ * extra_energy_j_ > budget_j) {  // exact, since World rounds its energies
     --dear_slots_;
   }
 }
@@ -107,7 +109,7 @@ int PlannerProblem::DearAllowance(int slot, int cell) const {
   if (!energy_binds_) {
     return dear_slots_;
   }
-  // What the way home takes of the dear slots, from the energy that it needs.
+  // The energy of the way to the stop says how many dear slots it needs.
   const double home_j = CompletionEnergy(*world_, at, slots_left) - slots_left * cheap_energy_j_;
   return dear_slots_ - static_cast<int>(std::lround(home_j / extra_energy_j_));
 }

@@ -1,5 +1,5 @@
-// The exact planner's problem in whole numbers: sensors that count, integer weights, what each slot
-// and cell allows. Immutable after construction. Used by the planner's own parts only.
+// The exact planner's problem in whole numbers: the sensors that count, integer weights, and what each slot
+// and cell allows. Immutable after construction, so threads may share one. Only parts of the planner use it.
 #pragma once
 
 #include <array>
@@ -12,9 +12,10 @@ namespace fresco {
 
 inline constexpr std::array kAllMoves = {Move::kNorth, Move::kSouth, Move::kEast, Move::kWest, Move::kHover};
 
-/// The planner minimises sum_t sum_n weight_n delta_{n,t} over flights that arrive. Sensors of weight
-/// zero are left out. Weights are whole numbers: exact where the scenario's are multiples of a common
-/// fraction (1, 2, 0.25, ...), otherwise rounded down, so that a lower bound stays one.
+/// The planner minimises sum_t sum_n weight_n delta_{n,t} over the flights that arrive. Sensors of weight
+/// zero are left out. Weights are whole numbers. They are exact if the scenario's weights are multiples of a
+/// common fraction (1, 2, 0.25, ...); otherwise they are rounded down, so that lower bounds stay lower
+/// bounds.
 class PlannerProblem {
  public:
   /// `world` must outlive the problem.
@@ -25,22 +26,25 @@ class PlannerProblem {
   int cells() const { return world_->scenario().columns * world_->scenario().rows; }
   int start() const { return world_->CellIndex(world_->scenario().start); }
 
-  /// The sensors that count, as indices into the scenario's.
+  /// The sensors with positive weight, as indices into the scenario's sensors.
   const std::vector<int>& sensors() const { return sensors_; }
   int size() const { return static_cast<int>(sensors_.size()); }
-  /// So small that the cost of any flight stays below 2^50, exact in a double.
+  /// One weight for each of these, so small that the cost of any flight is below 2^50 and exact in a double.
   const std::vector<int64_t>& weights() const { return weights_; }
-  /// Whether the whole weights stand to each other as the scenario's do (but for double's own rounding).
+  /// Whether the ratios of the whole weights are those of the scenario's weights, apart from the rounding of
+  /// doubles.
   bool has_exact_weights() const { return has_exact_weights_; }
-  /// Whether all sensors that count weigh the same; then the cost is in slots of AoI.
+  /// Whether all these sensors have the same weight; then one unit of cost is one slot of AoI.
   bool has_equal_weights() const;
   /// One unit of cost, as average AoI (J of the paper).
   double average_aoi_per_unit() const { return average_aoi_per_unit_; }
 
-  /// The AoI's cap; the number of slots where there is none.
+  /// The maximum AoI of the scenario; the number of slots if it has none.
   int maximum_aoi() const { return maximum_aoi_; }
   bool is_capped() const { return maximum_aoi_ < slots(); }
+  /// The AoI in the next slot if the sensor is not served.
   int NextAoi(int aoi) const { return aoi < maximum_aoi_ ? aoi + 1 : aoi; }
+  /// Whether the UAV over a cell covers a sensor, an index into sensors().
   bool Covers(int cell, int sensor) const {
     return world_->Covers(CellAt(cell), sensors_[static_cast<size_t>(sensor)]);
   }
@@ -48,19 +52,21 @@ class PlannerProblem {
   Cell CellAt(int cell) const {
     return {cell % world_->scenario().columns, cell / world_->scenario().columns};
   }
-  /// The cell after a move, -1 where it leaves the grid.
+  /// The cell after a move; -1 if the move leaves the grid.
   int After(int cell, Move move) const {
     return after_[static_cast<size_t>(cell) * kMoves + static_cast<size_t>(move)];
   }
 
-  /// Of hovering and flying a slot, one is the dearer in energy; flights differ in how many slots they
-  /// spend on it. Whether the budget limits that number at all:
+  /// A slot is dear if the UAV does in it what takes more energy: hovering in some scenarios, flying in
+  /// others. A flight's energy depends only on its number of dear slots. energy_binds says whether the budget
+  /// limits this number.
   bool energy_binds() const { return energy_binds_; }
+  /// Whether a slot with this move is dear.
   bool IsDear(Move move) const { return (move == Move::kHover) == hovering_is_dearer_; }
-  /// How many dear slots a flight may have in all.
+  /// The most dear slots that a flight can have.
   int dear_slots() const { return dear_slots_; }
-  /// How many dear slots a UAV may have had that is over `cell` at the beginning of `slot`, so that it
-  /// can still reach the stop in time and energy; negative: it can't be there at all.
+  /// The most dear slots before `slot` with which a UAV that is over `cell` at the beginning of `slot` can
+  /// still reach the stop in time and energy. Negative: it can't be there at all.
   int DearAllowance(int slot, int cell) const;
 
  private:
@@ -78,8 +84,8 @@ class PlannerProblem {
   bool hovering_is_dearer_;
   bool energy_binds_ = false;
   int dear_slots_ = 0;
-  double cheap_energy_j_ = 0;  // of a slot
-  double extra_energy_j_ = 0;  // of a dear slot over a cheap one
+  double cheap_energy_j_ = 0;  // energy of a slot that is not dear
+  double extra_energy_j_ = 0;  // how much more energy a dear slot takes
 };
 
 }  // namespace fresco

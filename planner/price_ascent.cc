@@ -9,17 +9,18 @@ namespace {
 
 constexpr float kNoFlight = 1e30f;
 constexpr int kSweepsBetweenChecks = 8;
-constexpr double kLeastGain = 0.01;  // of the bound, in so many sweeps
+constexpr double kLeastGain = 0.01;  // stop if kSweepsBetweenChecks sweeps raise the bound by less
 constexpr int64_t kMostWork = int64_t{1} << 34;
-constexpr int64_t kUnitsPerEntry = 12;  // of a sweep in one direction
+constexpr int64_t kUnitsPerEntry = 12;  // work of a sweep in one direction
 
-// As the instruction for many floats at a time does it; std::min, by reference, keeps gcc from it.
+// The smaller value, in a form that gcc turns into vector instructions. With std::min, which takes
+// references, it does not.
 inline float Less(float a, float b) {
   return a < b ? a : b;
 }
 
-// The least of value(0) to value(size - 1). In lanes, as the compiler may not reorder a minimum of
-// floats by itself.
+// Returns the least of value(0) .. value(size - 1). Works in lanes, since the compiler may not reorder a
+// minimum of floats by itself.
 template <class Value>
 float Least(size_t size, const Value& value) {
   constexpr size_t kLanes = 8;
@@ -56,7 +57,7 @@ PriceAscent::PriceAscent(const PlannerProblem& problem, const SlotCells& slot_ce
     offsets_[static_cast<size_t>(slot)] = entries_;
     entries_ += slot_cells.At(slot).size() * sensors_ * static_cast<size_t>(Width(slot));
   }
-  // Not set to zero, which would take long for gigabytes, and nobody asked meanwhile.
+  // Left uninitialised: setting gigabytes to zero takes long, and the meter would not be asked meanwhile.
   backward_ = std::make_unique_for_overwrite<float[]>(entries_);
   forward_ = std::make_unique_for_overwrite<float[]>(entries_);
   best_next_.resize(sensors_ * widest_);
@@ -115,12 +116,13 @@ double PriceAscent::Evaluate() {
   SweepBackward(false);
   double bound = -prices_.dear_slot * problem_->dear_slots();
   for (size_t n = 0; n < sensors_; ++n) {
-    bound += static_cast<double>(backward_[n]);  // slot 1 has one place, and AoI 1
+    bound += static_cast<double>(backward_[n]);  // slot 1 has one place and one AoI, 1
   }
   return bound;
 }
 
-// The bound is concave in the price of a dear slot: steps that double while they raise it, up or down.
+// The bound is a concave function of the price of a dear slot. So go up or down in steps that double as long
+// as they raise the bound.
 void PriceAscent::ImproveDearPrice() {
   double bound = Evaluate();
   for (const double direction : {1.0, -1.0}) {
@@ -159,7 +161,7 @@ void PriceAscent::SweepBackward(bool reprice) {
 }
 
 void PriceAscent::SweepForward() {
-  std::fill_n(forward_.get(), sensors_, 0.0f);  // slot 1 has one place, and AoI 1
+  std::fill_n(forward_.get(), sensors_, 0.0f);  // slot 1 has one place and one AoI, 1
   for (int slot = 1; slot < problem_->slots(); ++slot) {
     const std::vector<int32_t>& cells = slot_cells_->At(slot);
     const size_t next_size =
@@ -176,13 +178,13 @@ void PriceAscent::SweepForward() {
   }
 }
 
-// best_next_: the least backward cost in the next slot over the cells that the UAV can move to.
+// Writes to best_next_ the least backward cost in the next slot over the cells that the UAV can move to.
 void PriceAscent::TakeBestNext(int slot, int cell) {
   if (slot == problem_->slots()) {
     std::fill(best_next_.begin(), best_next_.end(), 0.0f);
     return;
   }
-  // Five neighbours at a time; where there are fewer, some count twice.
+  // Handles five neighbours at a time. If there are fewer, the first one fills the gaps.
   std::array<const float*, kMoves> next;
   std::array<float, kMoves> price;
   size_t count = 0;
@@ -207,8 +209,8 @@ void PriceAscent::TakeBestNext(int slot, int cell) {
   }
 }
 
-// The costs of one sensor's best flights through a place, unserved there, and what it gains by being
-// served. past_ is used up.
+// Computes the cost of one sensor's best flight through a place that does not serve it there, and what it
+// gains by being served there. Overwrites past_.
 PriceAscent::Marginals PriceAscent::MarginalsOf(size_t sensor, const float* forward, int slot, bool covered) {
   const auto width = static_cast<size_t>(Width(slot));
   const auto next_width = static_cast<size_t>(Width(slot + 1));
@@ -229,11 +231,12 @@ PriceAscent::Marginals PriceAscent::MarginalsOf(size_t sensor, const float* forw
   return marginals;
 }
 
-// Of the sensors that gain by transmitting there, only the one that gains most can: a price between the
-// largest gain and the next one makes it so. The prices of presence then level the sensors' costs.
+// Several sensors may gain by transmitting at a place, but only one can. A price between the largest gain and
+// the next one lets only the sensor with the largest gain want it. The presence prices then make the sensors'
+// costs equal.
 void PriceAscent::Reprice(int slot, size_t number, int cell) {
   if (slot == problem_->slots()) {
-    return;  // over the stop in any case
+    return;  // in the last slot all flights are over the stop
   }
   float largest_gain = 0;
   float next_gain = 0;

@@ -1,10 +1,12 @@
-// Prices that make sensors agree. Flown for alone, every sensor would have the UAV to itself, and the sum
-// of such optima is a weak lower bound. So each sensor pays a price (negative: is paid) where the UAV is,
-// and one for transmitting there; as the prices of all sensors add up to nothing in every flight, the sum of
-// the optima at these prices is a lower bound as well (Lagrangian decomposition). The ascent looks
-// for prices that make it large: slot by slot, back and forth, it sets them so that being over a cell costs
-// every sensor the same in its best flight through it (min-marginal averaging, as TRW-S does for
-// graphical models); no step lowers the bound. One thread; deterministic.
+// Finds prices that make the planner's lower bound large. If the UAV flew for one sensor alone, that sensor's
+// least cost would be easy to compute, and the sum of these optima over all sensors is a lower bound of any
+// flight's cost. But it is a weak one, since each sensor's best flight is another. So each sensor pays a
+// price for the UAV being over a cell (it is paid if the price is negative), and a price for transmitting
+// there. In every flight the prices of all sensors sum to zero or less, so the sum of the optima at these
+// prices is a lower bound, too (Lagrangian decomposition). The ascent goes through the slots back and forth.
+// It sets the prices of each cell so that the best flight through this cell costs every sensor the same
+// (min-marginal averaging, as TRW-S does it for graphical models). No step lowers the bound. Deterministic.
+// Only one thread may use an object.
 //
 // Reference: V. Kolmogorov, "Convergent tree-reweighted message passing for energy minimization", IEEE
 // TPAMI 28(10), 2006.
@@ -18,37 +20,39 @@
 
 namespace fresco {
 
-/// In units of cost. Floating point, so to be rounded to whole numbers before anything is proved by them.
+/// The prices, in units of cost. They are floating point, so they must be rounded to whole numbers
+/// (WholePrices) before they prove anything.
 struct CellPrices {
-  /// For being there, by place (SlotCells) and sensor: [places x sensors]. In every place their sum and
-  /// `transmission` make zero.
+  /// The price of the UAV being there, for each place (SlotCells) and sensor: [places x sensors]. In every
+  /// place, these prices and `transmission` sum to zero.
   std::vector<float> presence;
-  std::vector<float> transmission;  ///< for being served there, by place; at least zero
-  double dear_slot = 0;             ///< of every dear slot; each sensor pays its equal share
+  std::vector<float> transmission;  ///< the price of being served there, for each place; >= 0
+  double dear_slot = 0;             ///< the price of a dear slot; all sensors pay equal shares of it
 };
 
 class PriceAscent {
  public:
-  /// AoI beyond `aoi_limit` count as it. Both references must outlive the ascent.
+  /// An AoI larger than `aoi_limit` counts as `aoi_limit`. All references must outlive the object.
   PriceAscent(const PlannerProblem& problem, const SlotCells& slot_cells, int aoi_limit, WorkMeter& meter);
 
-  /// Until the bound rises but slowly, or the meter stops.
+  /// Improves the prices until the bound rises only slowly, or the meter stops.
   void Run();
 
   const CellPrices& prices() const { return prices_; }
 
+  /// The memory of an object, bytes.
   static int64_t Bytes(const PlannerProblem& problem, const SlotCells& slot_cells, int aoi_limit);
 
  private:
-  /// Of a sensor's flights through a place.
+  /// The least cost of a sensor's flights through a place.
   struct Marginals {
-    float unserved = 0;  ///< least cost, not served there
-    float gain = 0;      ///< how much less it is when served there; at least zero
+    float unserved = 0;  ///< least cost of the flights that do not serve the sensor there
+    float gain = 0;      ///< how much less those cost that serve it there; >= 0
   };
 
   int Width(int slot) const;
   size_t Offset(int slot, size_t number) const;
-  /// The bound at the present dear price, prices of places as they are.
+  /// Computes the lower bound at the present prices.
   double Evaluate();
   void ImproveDearPrice();
   void SweepBackward(bool reprice);
@@ -67,16 +71,17 @@ class PriceAscent {
   size_t sensors_;
   size_t widest_;
   CellPrices prices_;
-  double dear_step_ = 0;         // the first one of a search for a better price
+  double dear_step_ = 0;         // first step of a search for a better price of dear slots
   std::vector<size_t> offsets_;  // by slot
   // By place, sensor and AoI:
   size_t entries_ = 0;
-  std::unique_ptr<float[]> backward_;  // least cost of slots t..T, the slot's own included
-  std::unique_ptr<float[]> forward_;   // least cost of slots 1..t-1 for coming there with that AoI
-  std::vector<float> own_cost_;        // of a slot, by sensor and AoI
-  // Of the place in work:
+  std::unique_ptr<float[]> backward_;  // least cost of slots t..T
+  std::unique_ptr<float[]> forward_;   // least cost of slots 1..t-1 of a flight that arrives there with that
+                                       // AoI
+  std::vector<float> own_cost_;        // cost of one slot, by sensor and AoI
+  // For the place that is being worked on:
   std::vector<float> best_next_;      // by sensor and AoI in the next slot
-  std::vector<float> pushed_;         // likewise
+  std::vector<float> pushed_;         // by sensor and AoI in the next slot
   std::vector<float> past_;           // of one sensor, by AoI
   std::vector<Marginals> marginals_;  // by sensor
 };

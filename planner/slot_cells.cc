@@ -23,7 +23,7 @@ SlotCells::SlotCells(const PlannerProblem& problem, WorkMeter& meter)
 }
 
 int64_t SlotCells::Bytes(const PlannerProblem& problem) {
-  // The cells' vectors may have grown to twice their size.
+  // The capacity of the vectors may be twice their size.
   return int64_t{problem.slots() + 1} * problem.cells() * 3 * static_cast<int64_t>(sizeof(int32_t));
 }
 

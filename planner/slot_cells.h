@@ -1,5 +1,5 @@
-// For each slot 1..T the cells over which the UAV can be then, so that tables over (slot, cell) have no
-// entry for any other. Immutable after construction. A part of the exact planner.
+// Lists, for each slot 1 .. T, the cells over which the UAV can be in a flight that arrives. Tables by slot
+// and cell have entries for these only. Immutable after construction. Part of the exact planner.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,27 @@ namespace fresco {
 
 class SlotCells {
  public:
-  /// Incomplete, and not to be used, where the meter has stopped.
+  /// If the meter has stopped, the object is incomplete and must not be used.
   SlotCells(const PlannerProblem& problem, WorkMeter& meter);
 
-  /// The cells of a slot; the cell's number is its position here.
+  /// The cells of a slot. A cell's number is its position in this list.
   const std::vector<int32_t>& At(int slot) const { return cells_[static_cast<size_t>(slot)]; }
-  /// The cell's number in a slot, -1 where it has none.
+  /// A cell's number in a slot; -1 if the UAV can't be there.
   int Number(int slot, int cell) const {
     return numbers_[static_cast<size_t>(slot) * cell_count_ + static_cast<size_t>(cell)];
   }
-  /// Numbers through all slots: FirstPlace(slot) + number.
+  /// A place is a pair of slot and cell. Its index among all places is FirstPlace(slot) + number.
   size_t FirstPlace(int slot) const { return first_places_[static_cast<size_t>(slot)]; }
   size_t places() const { return first_places_.back(); }
 
-  /// What an instance takes at most.
+  /// The most memory that an object takes, bytes.
   static int64_t Bytes(const PlannerProblem& problem);
 
  private:
   size_t cell_count_;
   std::vector<std::vector<int32_t>> cells_;
   std::unique_ptr<int32_t[]> numbers_;
-  std::vector<size_t> first_places_;  // by slot, and one beyond
+  std::vector<size_t> first_places_;  // by slot; the last entry is the number of all places
 };
 
 }  // namespace fresco

@@ -1,5 +1,6 @@
-// Asks the planner's caller now and then whether to go on: by the work done since, not by a clock, so that
-// the planner stays a pure function and a time limit is kept in every part of it. One thread.
+// Asks the planner's caller from time to time whether to continue. It counts the work done instead of reading
+// a clock, so the planner stays deterministic, and every part of it can be stopped in time. Only one thread
+// may use an object.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +9,30 @@
 
 namespace fresco {
 
-/// How far a pass of the label search is; all zero before the first one.
+/// How far a pass of the label search is; all zero before the first pass.
 struct SearchProgress {
-  int64_t width = 0;        ///< labels a slot in the present pass
-  int slot = 0;             ///< of the present pass
-  int64_t labels = 0;       ///< in that slot
-  int64_t least_bound = 0;  ///< no flight below the limit costs less: the least bound of any label
+  int64_t width = 0;        ///< the most labels a slot in the present pass
+  int slot = 0;             ///< where the present pass is
+  int64_t labels = 0;       ///< labels in that slot
+  int64_t least_bound = 0;  ///< least bound of any label: no flight that costs less than the limit costs less
+                            ///< than this
 };
 
 class WorkMeter {
  public:
-  /// Units of work from one question to the next: some 0.05 s.
+  /// Units of work between two questions; they take about 0.05 s.
   static constexpr int64_t kUnitsPerQuestion = int64_t{1} << 25;
 
-  /// `keep_going` is never asked again once it has said no.
+  /// Once `keep_going` has returned false, it is not called again.
   explicit WorkMeter(std::function<bool(const SearchProgress&)> keep_going)
       : keep_going_(std::move(keep_going)) {}
 
-  /// Counts work, a unit being about one simple operation. Returns whether to go on.
+  /// Counts work; a unit is about one simple operation. Returns whether to continue.
   bool Count(int64_t units) {
     units_ += units;
     return units_ < kUnitsPerQuestion ? !stopped_ : Ask();
   }
-  /// Asks now, whatever has been counted.
+  /// Asks at once, however little work has been counted. Returns whether to continue.
   bool Ask() {
     units_ = 0;
     stopped_ = stopped_ || !keep_going_(progress);
@@ -38,7 +40,7 @@ class WorkMeter {
   }
   bool stopped() const { return stopped_; }
 
-  SearchProgress progress;  ///< shown at the next question
+  SearchProgress progress;  ///< what the next question passes to keep_going
 
  private:
   std::function<bool(const SearchProgress&)> keep_going_;

@@ -1,6 +1,7 @@
-// When a process that died is started again: at once where it had worked for a while; after a pause that
-// grows where it died right after its start; never where it can't start. Time is an argument. Used by one
-// thread.
+// Decides when to start a process again after it has ended: at once if it had run for a while, and after a
+// growing pause if it ended right after its start. If it ends right after its start again and again, it is
+// hopeless. Uses no clock; times are arguments. TrainingRun owns one for each actor. Only one thread may use
+// an object.
 #pragma once
 
 #include <cstdint>
@@ -9,25 +10,27 @@ namespace fresco {
 
 class RestartPolicy {
  public:
-  /// A process that lived for less died right after its start.
+  /// A process that ran for less than this ended right after its start.
   static constexpr int64_t kEarlyUs = 2'000'000;
   static constexpr int64_t kFirstPauseUs = 100'000;
   static constexpr int64_t kLongestPauseUs = 5'000'000;
-  /// So many processes in succession that ended by themselves right after their start: none can start.
+  /// It is hopeless if so many processes in succession ended by themselves right after their start.
   static constexpr int kHopelessAfter = 5;
 
-  /// Whether a process was ended by somebody else, by SIGKILL or SIGTERM; `exit_status` as
-  /// ChildProcess::ExitStatus. That says nothing about the next.
+  /// Whether somebody else ended the process, by SIGKILL or SIGTERM. Such an end says nothing about the next
+  /// process. `exit_status` is that of ChildProcess::ExitStatus.
   static bool EndedByOthers(int exit_status);
 
-  /// Notes a death and returns the pause before the next start.
+  /// Takes note that a process ended after `lived_us`, and returns the pause before the next start,
+  /// microseconds.
   int64_t NoteDeath(int exit_status, int64_t lived_us);
 
+  /// Whether the process apparently can't start.
   bool hopeless() const { return own_ends_ >= kHopelessAfter; }
 
  private:
   int64_t next_pause_us_ = kFirstPauseUs;
-  int own_ends_ = 0;  // right after the start, in succession
+  int own_ends_ = 0;  // processes in succession that ended by themselves right after their start
 };
 
 }  // namespace fresco

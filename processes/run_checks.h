@@ -1,5 +1,5 @@
-// What is checked of a run before anything is written or started, so that wrong use leaves nothing behind: no
-// folder, no file, no process. The functions only look.
+// Checks a run before anything is written or started, so that wrong use leaves no folder, file or process
+// behind. These functions change nothing; any thread may call them.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace fresco {
 
-/// The programs that a run is made of are there, and this host has the memory for its learner and its local
-/// actors, each alone and all together. Whatever else can be said of an experiment before it runs belongs
-/// here. Throws UsageError.
+/// Throws UsageError if a program of the run is missing, or if this host has too little memory for the
+/// learner or the local actors, alone or together. Further checks of an experiment that are possible before
+/// it runs belong here.
 void CheckRun(const Experiment& experiment);
 
-/// For commands with many runs: CheckRun, and also that the bus of the runs can be opened. It is closed
-/// again. Throws as OpenBus does.
+/// Does CheckRun, and opens and closes the bus of the experiment. For commands with many runs. Throws as
+/// CheckRun and OpenBus do.
 void CheckRunAndBus(const Experiment& experiment, const BusOptions& bus_options);
 
-/// The folder of a run can be written to and, for a new run, holds no other. Throws UsageError.
+/// Throws UsageError if the folder of a run can't be written to or, for a new run, holds another run.
 void CheckRunFolder(const std::filesystem::path& folder, RunFolder::Use use);
 
 }  // namespace fresco

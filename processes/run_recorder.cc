@@ -18,7 +18,7 @@ std::filesystem::path EventLogPath(const std::filesystem::path& folder, int numb
   return folder / (number == 1 ? "traffic.lcm" : fmt::format("traffic-{}.lcm", number));
 }
 
-/// The files of one recording: one, or its parts.
+/// Returns the files of one recording: the log itself, or its parts.
 std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files;
   if (std::filesystem::exists(path)) {
@@ -78,7 +78,7 @@ RunRecorder::~RunRecorder() {
 }
 
 void RunRecorder::WaitUntilItRecords(uintmax_t log_bytes_before) {
-  constexpr int64_t kPatienceUs = 30'000'000;  // LCM's self test alone takes 10 s where it fails
+  constexpr int64_t kPatienceUs = 30'000'000;  // LCM's self test alone takes 10 s if it fails
   constexpr int kWaitMs = 2;
   const int64_t deadline_us = MonotonicMicroseconds() + kPatienceUs;
   while (ReadFile(log_).find("recording ", log_bytes_before) == std::string::npos) {
@@ -117,7 +117,7 @@ std::string RunRecorder::Report() const {
     logs += fmt::format(" {}", path.string());
   }
   if (has_failed_) {
-    return fmt::format("the recording is INCOMPLETE ({}); look into it: {} log info{}", last, ProgramName(),
+    return fmt::format("the recording is INCOMPLETE ({}); inspect it: {} log info{}", last, ProgramName(),
                        logs);
   }
   return fmt::format("{}; retrain: {} retrain{} --config {}", last, ProgramName(), logs,

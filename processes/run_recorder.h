@@ -1,5 +1,5 @@
-// Records a run's traffic beside it: `fresco log record` as a process of its own, so that the recording
-// shares nothing with learner and actors but the bus. Owned by TrainingRun and used by its thread.
+// Records a run's traffic during the run. It starts `fresco log record` as a separate process, so the
+// recording shares only the bus with learner and actors. TrainingRun owns it and uses it on its thread.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +14,23 @@ namespace fresco {
 
 class RunRecorder {
  public:
-  /// Records what is on `lcm_url` to traffic.lcm in the run's folder, or to traffic-2.lcm and so on where a
-  /// run that is resumed was recorded before; in files of `split_mb` megabytes, unless that is 0. Returns
-  /// once everything that is sent is recorded. Throws with the recorder's own words where it can't start.
+  /// Records the traffic of `lcm_url` to traffic.lcm in the run's folder. If the run was recorded before and
+  /// is resumed, the file is traffic-2.lcm and so on. Splits it into files of `split_mb` megabytes unless
+  /// that is 0. Returns when the recorder is ready. Throws with the recorder's own words if it can't start.
   RunRecorder(const std::filesystem::path& folder, const std::string& lcm_url, double split_mb);
-  /// Ends the recording in order.
+  /// Ends the recording properly.
   ~RunRecorder();
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
 
-  /// Says on standard error, once, where the recording has ended by itself.
+  /// Logs an error, once, if the recorder has ended by itself.
   void Step();
 
-  /// Lets the recorder write what has arrived, and ends it. To be called when all others have ended.
+  /// Lets the recorder write what has arrived, and ends it. Call it after learner and actors have ended.
   void End();
 
-  /// What was recorded and what can be done with it, or that the recording is incomplete; one line. Known
-  /// once the recording has ended.
+  /// Returns one line: what was recorded and what can be done with it, or that the recording is incomplete.
+  /// Call it after End.
   std::string Report() const;
 
  private:
@@ -42,7 +42,7 @@ class RunRecorder {
   bool has_failed_ = false;
 };
 
-/// The event logs of the run in this folder, in the order in which they were recorded.
+/// Returns the event logs in a run's folder, in the order in which they were recorded.
 std::vector<std::filesystem::path> RecordedLogs(const std::filesystem::path& folder);
 
 }  // namespace fresco

@@ -38,7 +38,7 @@ TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path fol
   Listen();
 }
 
-/// In order for the learner, which reads the configuration there.
+/// Makes the folder and writes the configuration, which the learner reads from there.
 void TrainingRun::PrepareFolder() const {
   RunFolder::Make(folder_);
   const FolderLock lock(folder_, use_ == RunFolder::Use::kResume ? kResumePatienceUs : 0);
@@ -46,7 +46,8 @@ void TrainingRun::PrepareFolder() const {
 }
 
 void TrainingRun::Listen() {
-  constexpr int kQueueCapacity = 64;  // five statuses a second; nobody polls while processes and report end
+  // Statuses come five times a second, and nobody polls while the processes end and the report is written.
+  constexpr int kQueueCapacity = 64;
   const Channels channels = ChannelsWithPrefix(experiment_.run().channel_prefix());
   const auto take = [this](const learner_status_t& status) {
     if (status.run_id == run_id_) {
@@ -87,12 +88,11 @@ double TrainingRun::SilentSeconds() const {
 void TrainingRun::GiveUpOnASilentLearner() const {
   const double patience_s = experiment_.run().patience_s();
   if (patience_s > 0 && SilentSeconds() >= patience_s) {
-    throw Failure(
-        fmt::format("nothing was heard of the learner (pid {}) for {:.0f} s (run.patience_s), though it has "
-                    "not ended; its "
-                    "log {} ends with:{}",
-                    learner_->pid(), patience_s, (folder_ / "learner.log").string(),
-                    LastLines(folder_ / "learner.log", 3)));
+    throw Failure(fmt::format(
+        "nothing was heard of the learner (pid {}) for {:.0f} s (run.patience_s), but it is still "
+        "running; its log {} ends with:{}",
+        learner_->pid(), patience_s, (folder_ / "learner.log").string(),
+        LastLines(folder_ / "learner.log", 3)));
   }
 }
 
@@ -135,7 +135,7 @@ std::string TrainingRun::Summary() const {
                 fmt::format("the learner ended without results{}; its log ends with:{}",
                             CheckpointFolder(folder_).Latest().empty()
                                 ? ""
-                                : fmt::format(" (go on with: {})", ResumeCommand()),
+                                : fmt::format(" (continue with: {})", ResumeCommand()),
                             LastLines(folder_ / "learner.log", 3)));
   }
   return ReadFile(folder_ / "summary.json");

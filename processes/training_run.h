@@ -1,5 +1,5 @@
-// The processes of one run: a learner and its local actors, started, minded and ended in order. What
-// `train` shows and `figures` runs many of. Used by one thread.
+// Starts, watches and ends the processes of one run: a learner and its local actors. `train` uses one,
+// `figures` and `soak` several. Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
@@ -22,57 +22,58 @@ namespace fresco {
 
 class TrainingRun {
  public:
-  /// A new run in `folder`. Checks all that can be checked before it starts (processes/run_checks.h) and opens
-  /// the bus; nothing is written before Start. Throws UsageError. `bus_options` go to every process, a
-  /// disturbance with a seed of its own.
+  /// Prepares a new run in `folder`: checks all that can be checked in advance (processes/run_checks.h) and
+  /// opens the bus. Nothing is written before Start. Every process gets `bus_options`; if they disturb
+  /// messages, each with a seed of its own. Throws UsageError.
   TrainingRun(const Experiment& experiment, std::filesystem::path folder, const BusOptions& bus_options = {});
-  /// Goes on with the run in `folder`, read by ReadResumption. The same holds.
+  /// Does the same for resuming the run in `folder`, which ReadResumption has read.
   TrainingRun(const Resumption& resumption, std::filesystem::path folder, const BusOptions& bus_options = {});
-  /// Ends every process that is still there.
+  /// Ends every process that is still running.
   ~TrainingRun() = default;
 
-  /// Has Start record the run's traffic until End, in files of `split_mb` megabytes unless that is 0.
+  /// Call it before Start to record the run's traffic until End, in files of `split_mb` megabytes unless that
+  /// is 0.
   void Record(double split_mb) { record_split_mb_ = split_mb; }
 
-  /// Makes the folder and starts recorder and learner. Throws if the folder can't be made, or the traffic not
-  /// be recorded.
+  /// Makes the folder and starts recorder and learner. Throws if the folder can't be made or the traffic
+  /// can't be recorded.
   void Start();
 
-  /// Waits for a status, at most `timeout_us`, and starts again what has died. Returns whether the
-  /// learner is still running. Throws Failure with the actor's own words where one can never start, and
-  /// where the learner has said nothing for run.patience_s.
+  /// Waits at most `timeout_us` for a status, and starts actors again that have ended. Returns whether the
+  /// learner is still running. Throws Failure with an actor's own words if actors can't start, and if the
+  /// learner has sent nothing for run.patience_s.
   bool Step(int64_t timeout_us);
 
-  /// Ends learner and actors in order; returns the learner's exit status, 0 where the run is complete.
+  /// Ends the learner, then the actors. Returns the learner's exit status; 0 if the run is complete.
   int End();
 
-  // ---- For those who disturb and watch a run (`soak`).
-  /// A signal to the learner, or to the actor in a place; nothing where there is no process now.
+  // ---- For `soak`, which disturbs and watches a run.
+  /// Sends a signal to the learner, or to the actor number `place` (0 .. run.actors - 1). Does nothing if
+  /// there is no such process at the moment.
   void SignalLearner(int signal_number);
   void SignalActor(int place, int signal_number);
-  /// The processes that were started and not seen to end, the learner first.
+  /// The ids of the processes that have started and not been seen to end, the learner's first.
   std::vector<pid_t> Pids() const;
-  /// How often a local actor ended by itself: with an error, or by a signal that nobody sends.
+  /// How often a local actor ended by itself: with an error, or by a signal that `soak` does not send.
   int actor_failures() const { return actor_failures_; }
 
   /// The learner's last status; none before the first.
   const std::optional<learner_status_t>& status() const { return status_; }
-  /// For how long the learner, which should five times a second, has said nothing.
+  /// Seconds since the learner's last status, of which it should send five a second, or since its start.
   double SilentSeconds() const;
 
-  /// The summary that the learner has left in the folder, as JSON. Throws with the end of the learner's
-  /// log where it has left none.
+  /// Returns the summary that the learner has written, as JSON. Throws with the last lines of the learner's
+  /// log if it has written none.
   std::string Summary() const;
 
-  /// What was recorded, as RunRecorder::Report says; empty where nothing was to be. After End.
+  /// Returns RunRecorder::Report; empty if nothing was to be recorded. Call it after End.
   std::string RecordingReport() const { return recorder_ ? recorder_->Report() : ""; }
 
-  /// What goes on with this run where it was interrupted; with its key, without which it would go on open,
-  /// and recorded where it was.
+  /// Returns the command that continues this run after an interruption, with the same key file and recording.
   std::string ResumeCommand() const;
 
  private:
-  /// One local actor's place.
+  /// The place of one local actor, whose process may be replaced.
   struct ActorPlace {
     std::unique_ptr<ChildProcess> process;
     RestartPolicy restarts;
@@ -101,16 +102,16 @@ class TrainingRun {
   std::unique_ptr<Bus> bus_;
   std::optional<MessageBus> messages_;  // over bus_
   std::optional<learner_status_t> status_;
-  int64_t heard_us_ = 0;                   // the learner's last status, or its start
-  std::unique_ptr<RunRecorder> recorder_;  // before learner and actors: it ends after them
+  int64_t heard_us_ = 0;                   // time of the learner's last status, or of its start
+  std::unique_ptr<RunRecorder> recorder_;  // declared before learner and actors, so that it ends after them
   std::unique_ptr<ChildProcess> learner_;
   std::vector<ActorPlace> actors_;
   uint64_t started_processes_ = 0;
   int actor_failures_ = 0;
 };
 
-/// What the run in `folder` goes on from, read once its learner has left the folder. Throws as
-/// ReadResumption does, and where a learner is at work there.
+/// Reads what is needed to resume the run in `folder`. Waits for a learner that is about to end there. Throws
+/// as ReadResumption does, and if a learner is working in the folder.
 Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings = {});
 
 }  // namespace fresco

@@ -16,7 +16,8 @@ struct RoleStyle {
   const char* dashes;
 };
 
-/// The optimum's marker is open and larger, so that it shows around a curve that reaches it.
+/// The optimum's marker is open and larger, so that it stays visible around the marker of a curve that
+/// reaches it.
 RoleStyle StyleOf(CurveRole role) {
   switch (role) {
     case CurveRole::kDqn:

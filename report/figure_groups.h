@@ -1,4 +1,5 @@
-// The results of a study as the figures show them: by x, over deployments, for each policy. Pure.
+// Groups the results of a study as the figures show them: for each x and policy, over all deployments. Pure
+// functions; any thread may call them.
 #pragma once
 
 #include <optional>
@@ -10,13 +11,14 @@
 
 namespace fresco {
 
-/// What the figures compare, in the order of their curves and columns.
+/// A policy that the figures compare.
 struct Policy {
-  const char* name;
-  const char* column;
+  const char* name;    ///< in texts
+  const char* column;  ///< first part of its columns' names in CSV files
   CurveRole role;
-  std::optional<double> (*average_aoi)(const StudyResult&);  ///< none: not known
+  std::optional<double> (*average_aoi)(const StudyResult&);  ///< returns its average AoI; none if not known
 };
+/// All policies, in the order of the curves and columns.
 inline constexpr Policy kPolicies[] = {
     {"DQN", "dqn", CurveRole::kDqn,
      [](const StudyResult& result) { return std::optional(result.average_aoi); }},
@@ -31,18 +33,19 @@ inline constexpr Policy kPolicies[] = {
 /// The results at one x of a figure.
 struct Group {
   double x = 0;
-  std::vector<StudyResult> results;
+  std::vector<StudyResult> results;  ///< one for each deployment
 
-  /// Over all results; none if it is not known of one of them: a mean over some deployments is not to be
-  /// held against another policy's over all.
+  /// The mean of a policy's average AoI over all results. None if it is not known for one of them, since
+  /// means over different deployments can't be compared.
   std::optional<MeanEstimate> Average(const Policy& policy) const;
-  /// The gaps of the runs whose optimum is proved; no other run has a gap.
+  /// The gaps in percent of the runs whose optimum is proved. Other runs have no gap.
   std::vector<double> Gaps() const;
+  /// The mean and the largest of these gaps; none if there are none.
   std::optional<MeanEstimate> Gap() const;
   std::optional<double> LargestGap() const;
 };
 
-/// The groups of a figure, by x.
+/// Returns the groups of a figure, sorted by x.
 std::vector<Group> GroupsOf(const PaperStudy& study, const std::vector<StudyResult>& results, Figure figure);
 
 }  // namespace fresco

@@ -21,7 +21,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The figure against R or N: file, texts and what its x is called in the CSV.
+/// A figure of the average AoI against R or N: its file, its texts and the name of x in the CSV file.
 struct DeploymentFigure {
   Figure figure;
   const char* file;
@@ -34,7 +34,7 @@ constexpr DeploymentFigure kDeploymentFigures[] = {
     {Figure::kSensors, "sensors", "Effect of the number of sensors", "number of sensors N", "sensors"},
 };
 
-/// The figure against the energy budget.
+/// A figure of the average AoI against the energy budget.
 struct EnergyFigure {
   Figure figure;
   const char* file;
@@ -64,7 +64,7 @@ std::string WithSpread(const std::optional<MeanEstimate>& estimate, int digits) 
          (estimate->half_width ? fmt::format(" ± {}", Number(*estimate->half_width, digits)) : "");
 }
 
-/// Empty if there is no value.
+/// Returns an empty cell if there is no value.
 template <class Value>
 CsvCell CellOrEmpty(const std::optional<Value>& value) {
   return value ? CsvCell(*value) : CsvCell(std::string());
@@ -75,7 +75,7 @@ std::vector<CsvCell> CellsOf(const std::optional<MeanEstimate>& estimate) {
           CellOrEmpty(estimate ? estimate->half_width : std::nullopt)};
 }
 
-/// Of the file that shows a flight.
+/// Returns the name of the file that shows the flight with this name, without extension.
 std::string FlightFile(const std::string& name) {
   const std::pair<std::string, const char*> files[] = {{FoundFlightName(true), "flight_optimal"},
                                                        {FoundFlightName(false), "flight_best_found"},
@@ -89,7 +89,7 @@ std::string FlightFile(const std::string& name) {
   return "flight_dqn";
 }
 
-/// Everything that is written once the runs are there.
+/// Writes all files of a study.
 class FigureWriter {
  public:
   FigureWriter(Path folder, const Experiment& base, const PaperStudy& study,
@@ -151,7 +151,7 @@ class FigureWriter {
     plot.least_y = 0;
     for (const Policy& policy : kPolicies) {
       Curve curve{policy.name, policy.role};
-      constexpr double kAside = 0.05;  // so that the spreads of several policies can be told apart
+      constexpr double kAside = 0.05;  // shifts the bars, so that those of different policies do not overlap
       curve.bars_aside = kAside * (static_cast<double>(plot.curves.size()) - 1.5);
       for (const Group& group : groups) {
         if (const std::optional<MeanEstimate> estimate = group.Average(policy)) {
@@ -214,7 +214,7 @@ class FigureWriter {
     return table;
   }
 
-  /// Baselines and optimum are computed on a finer grid of budgets than DQN is trained at.
+  /// The curves of the baselines and the optimum have more budgets than those that DQN was trained at.
   void WriteEnergyFigure(const EnergyFigure& figure) {
     const std::vector<Group> groups = GroupsOf(study_, results_, figure.figure);
     LinePlot plot{figure.title, "energy budget (J)", "average AoI (slots)"};
@@ -248,7 +248,8 @@ class FigureWriter {
     Draw(DrawLinePlot(plot), figure.file, figure.title, figure.caption);
   }
 
-  /// Those that DQN was trained at and, unless the study is a quick one, twenty steps over the range.
+  /// The budgets at which DQN was trained and, unless the study is a quick one, twenty steps over their
+  /// range.
   std::vector<double> BudgetsOf(Figure figure, const std::vector<Group>& groups) const {
     std::vector<double> budgets;
     for (const Group& group : groups) {
@@ -329,7 +330,7 @@ class FigureWriter {
     WriteFileAtomically(folder_ / "report.html", ReportPage(contents_));
   }
 
-  /// Over all rows of the two figures of the paper that have one.
+  /// The mean gap over all rows of the paper's two figures that have one.
   std::optional<double> MeanGap() const {
     double sum = 0;
     int rows = 0;

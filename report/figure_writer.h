@@ -1,5 +1,5 @@
-// Everything that a study writes once its runs are there: tables (CSV), pictures, the report. Used by one
-// thread.
+// Writes the results of a study after its runs: tables (CSV), pictures, the report. Any thread may call it,
+// but only one at a time for a folder.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,17 @@
 namespace fresco {
 
 struct WrittenFigures {
-  /// Of DQN to the optimum, over all rows of the two figures of the paper that have a gap; none: no row has.
+  /// The mean gap between DQN and the optimum, over the rows of the paper's two figures that have a gap; none
+  /// if no row has one.
   std::optional<double> mean_gap_percent;
-  int unproved_runs = 0;      ///< whose optimum is not proved, so that they have no gap
-  std::string picture_error;  ///< why pictures are missing; empty: none is
+  int unproved_runs = 0;      ///< runs without a gap, since their optimum is not proved
+  std::string picture_error;  ///< why pictures are missing; empty if none is missing
 };
 
 /// Writes runs.csv, the figures `radius`, `sensors`, `energy`, `energy_dear_flight`, `learning_curve` and
-/// `flight_<policy>`, each as CSV, SVG and PNG, and report.html into `folder`; the runs stand in
-/// folder/runs. Where pictures can't be drawn all the numbers are written. Throws what file access throws.
+/// `flight_<policy>`, each as CSV, SVG and PNG, and report.html to `folder`. The runs are in folder/runs. If
+/// pictures can't be drawn, writes all other files and sets picture_error. Throws Failure if a file can't be
+/// read or written.
 WrittenFigures WriteStudyFigures(const std::filesystem::path& folder, const Experiment& base,
                                  const PaperStudy& study, const std::vector<StudyResult>& results);
 

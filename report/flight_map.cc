@@ -13,13 +13,14 @@ namespace {
 constexpr int kMapWidthPx = 800;
 constexpr int kColourBarPx = 116;
 
-/// A place on the map, in cells.
+/// A position on the map, in cells.
 struct Point {
   double column = 0;
   double row = 0;
 };
 
-/// The shift of a slot, the same in columns and rows: back at slot 1, on at slot T.
+/// The shift of the path in a slot, in cells, the same for columns and rows. It grows from -0.3 in slot 1 to
+/// 0.3 in slot T.
 double Shift(const World& world, int slot) {
   constexpr double kLargestShift = 0.3;
   const double last = std::max(world.scenario().slots - 1, 1);
@@ -38,10 +39,11 @@ Point SensorPoint(const World& world, int sensor) {
 
 struct SensorColours {
   const char* disc;
-  const char* number;  ///< on the disc
+  const char* number;  ///< colour of the number on the disc
 };
 
-/// First the colours that the path has not; with more sensors the numbers alone tell them apart.
+/// The first colours are ones that the path does not have. If there are more than eight sensors, colours
+/// repeat, and only the numbers differ.
 SensorColours ColoursOf(int sensor) {
   constexpr const char* kWhite = "#FFFFFF";
   constexpr std::array<SensorColours, 8> kColours = {{{colour::kVermillion, kWhite},
@@ -55,12 +57,12 @@ SensorColours ColoursOf(int sensor) {
   return kColours[static_cast<size_t>(sensor) % kColours.size()];
 }
 
-/// "#RRGGBB" as the number that gnuplot reads from data.
+/// Returns the colour "#RRGGBB" as a number that gnuplot can read from data.
 std::string ColourNumber(const char* colour) {
   return fmt::format("0x{}", colour + 1);
 }
 
-/// column, row, slot
+/// The data of the path, a line for each slot: column, row, slot.
 std::string PathData(const World& world, const Flight& flight) {
   std::string script = "$path << END\n";
   for (const FlightSlot& slot : flight.slots) {
@@ -70,7 +72,8 @@ std::string PathData(const World& world, const Flight& flight) {
   return script + "END\n";
 }
 
-/// column, row, the way from there to the sensor, its colour
+/// The data of the collections, a line each: column, row, columns and rows from there to the sensor, its
+/// colour.
 std::string CollectionData(const World& world, const Flight& flight) {
   std::string script = "$collections << END\n";
   for (const FlightSlot& slot : flight.slots) {
@@ -85,7 +88,8 @@ std::string CollectionData(const World& world, const Flight& flight) {
   return script + "END\n";
 }
 
-/// column, row, radius, number, colour of the disc and of the number
+/// The data of the sensors, a line each: column, row, radius, number, colour of the disc, colour of the
+/// number.
 std::string SensorData(const World& world) {
   const double radius = world.scenario().coverage_radius_m / world.scenario().cell_m;
   std::string script = "$sensors << END\n";
@@ -98,7 +102,7 @@ std::string SensorData(const World& world) {
   return script + "END\n";
 }
 
-/// Start and stop, where a path through all slots has its ends.
+/// The data of start and stop, shifted as the ends of a path through all slots.
 std::string EndData(const World& world) {
   const Scenario& scenario = world.scenario();
   const Point start = Shifted(world, scenario.start, 1);
@@ -111,7 +115,7 @@ constexpr const char* kBlackLine = "linecolor rgb '#000000'";
 constexpr const char* kStartPoint = "pointtype 9 pointsize 1.2";
 constexpr const char* kStopPoint = "pointtype 5 pointsize 0.9";
 
-/// From the lowest layer to the highest. 0x60000000 makes a colour a third transparent.
+/// Draws from the lowest layer to the highest. 0x60000000 makes a colour a third transparent.
 std::string PlotCommand(bool collections) {
   const std::string lines =
       "  $collections using 1:2:3:4:($5+0x60000000) with vectors nohead linewidth 0.8 linecolor rgb "
@@ -132,7 +136,7 @@ std::string PlotCommand(bool collections) {
       collections ? lines : "", collections ? dots : "", kBlackLine, kStartPoint, kBlackLine, kStopPoint);
 }
 
-/// So many cells between tics that there are at most eleven of them.
+/// The number of cells between two tics, so that there are at most eleven tics.
 int TicStep(int cells) {
   int step = 1;
   for (const int larger : {2, 5, 10, 20, 50, 100, 200, 500, 1000}) {
@@ -141,9 +145,9 @@ int TicStep(int cells) {
   return step;
 }
 
-/// Thin lines between the cells hang on the tics of the second axes, which have no other use.
+/// Draws thin lines between the cells. They are the grid of the second axes, which have no other use.
 std::string CellScript(int columns, int rows) {
-  constexpr int kMostCells = 60;  // beyond it the lines would be all that is seen
+  constexpr int kMostCells = 60;  // a larger grid has no lines, since they would cover everything
   if (std::max(columns, rows) > kMostCells) {
     return "";
   }
@@ -162,7 +166,7 @@ std::string AxesScript(const World& world) {
                      rows - 0.5) +
          fmt::format("set xtics 0,{}\nset ytics 0,{}\n", TicStep(columns), TicStep(rows)) +
          CellScript(columns, rows) +
-         // Viridis without its yellow end, which is lost on white.
+         // The colours of Viridis without the yellow end, which is hard to see on white.
          "set palette defined (0 '#440154', 1 '#414487', 2 '#2A788E', 3 '#22A884', 4 '#7AD151', 5 "
          "'#BBDF27')\n" +
          fmt::format("set cbrange [1:{}]\n", std::max(world.scenario().slots, 2));

@@ -1,5 +1,5 @@
-// A flight seen from above: where the UAV was when, and from where it served which sensor. Pure; any
-// thread.
+// Draws a flight seen from above: where the UAV was in each slot, and from where it served which sensor. A
+// pure function; any thread may call it.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace fresco {
 
-/// The grid with its axes in cells, equal on both, row 0 at the bottom; sensors with their numbers and
-/// coverage; the path with the slot as its colour; a dot where the UAV was when it collected, joined with
-/// the sensor that it collected from. Slot by slot the path is shifted by a small part of a cell, so that
-/// passes over the same cells lie side by side. `flight` has at least one slot and is one of `world`.
+/// The picture shows the grid, with axes in cells of equal length and row 0 at the bottom; the sensors with
+/// their numbers and coverage; the path, coloured by slot; and a dot wherever the UAV collected, joined with
+/// that sensor. In each slot the path is shifted by a small part of a cell, so that several passes over the
+/// same cells are visible. `flight` has at least one slot and was flown in `world`.
 Picture DrawFlightMap(const std::string& title, const World& world, const Flight& flight);
 
 }  // namespace fresco

@@ -17,8 +17,8 @@
 namespace fresco {
 namespace {
 
-/// A file in memory as one end of a conversation: nobody waits for a reader or a writer, so neither a
-/// full pipe nor a closed one has to be dealt with.
+/// A file in memory, used for gnuplot's input and output instead of a pipe. Neither side waits for the other,
+/// so there are no full or closed pipes to handle.
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : fd_(memfd_create(name, MFD_CLOEXEC)) {
@@ -64,8 +64,8 @@ class MemoryFile {
   int fd_;
 };
 
-/// posix_spawn's two descriptions of the child: its standard streams, and signals that are its own
-/// (a group of its own, so that a terminal's Ctrl-C reaches the parent only).
+/// The two descriptions of the child that posix_spawn needs: its standard streams, and its signals. It gets a
+/// process group of its own, so that Ctrl-C in a terminal reaches the parent only.
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output, int errors) {
@@ -87,7 +87,7 @@ class SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 
-  /// Its process id, found in PATH.
+  /// Starts the program, which is searched for in PATH, and returns its process id.
   pid_t Spawn(char* const* arguments) const {
     pid_t pid = -1;
     const int error = posix_spawnp(&pid, arguments[0], &actions_, &attributes_, arguments, environ);
@@ -107,8 +107,8 @@ class SpawnSettings {
   posix_spawnattr_t attributes_{};
 };
 
-/// The wait status of the child. Once `timeout_us` have passed it is killed, with what it has started,
-/// and this throws.
+/// Waits for the child and returns its wait status. After `timeout_us`, kills it and all that it has started,
+/// and throws Failure.
 int Wait(pid_t pid, int64_t timeout_us) {
   const int64_t deadline_us = MonotonicMicroseconds() + timeout_us;
   int status = 0;
@@ -117,7 +117,7 @@ int Wait(pid_t pid, int64_t timeout_us) {
       kill(-pid, SIGKILL);
       waitpid(pid, &status, 0);
       throw Failure("gnuplot did not finish within " + std::to_string(timeout_us / 1000) +
-                    " ms and was ended");
+                    " ms and was killed");
     }
     constexpr int kWaitMs = 2;
     poll(nullptr, 0, kWaitMs);
@@ -130,7 +130,8 @@ std::string StatusText(int status) {
                            : "signal " + std::to_string(WTERMSIG(status));
 }
 
-/// The length of the UTF-8 sequence that `text` begins with; 0 where it is none that XML allows.
+/// Returns the length of the UTF-8 sequence at the beginning of `text`; 0 if it is not valid or XML does not
+/// allow it.
 size_t Utf8Length(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const size_t length = byte(0) < 0x80                      ? 1
@@ -151,7 +152,8 @@ size_t Utf8Length(std::string_view text) {
   return overlong || surrogate || beyond || not_a_character ? 0 : length;
 }
 
-/// "\\140" for a backquote, which would run a command even behind a backslash.
+/// Returns the character escaped. A backquote becomes "\\140", since it would run a command even after a
+/// backslash.
 std::string OctalEscape(char character) {
   const auto digit = [&](int shift) { return static_cast<char>('0' + ((character >> shift) & 7)); };
   return {'\\', digit(6), digit(3), digit(0)};
@@ -186,7 +188,7 @@ std::string GnuplotString(std::string_view text) {
     } else if (length == 1 && (static_cast<unsigned char>(character[0]) < 0x20 || character[0] == 0x7F)) {
       quoted += ' ';
     } else if (character == ">" && quoted.ends_with("]]")) {
-      quoted += " >";  // gnuplot leaves ">" as it is, and "]]>" may not stand in XML's text
+      quoted += " >";  // gnuplot does not escape ">", and XML does not allow "]]>" in text
     } else if (std::string_view("\"\\`").find(character) != std::string_view::npos) {
       quoted += OctalEscape(character[0]);
     } else {

@@ -1,5 +1,5 @@
-// Debian's gnuplot as a filter: a script goes in, a picture comes out. Thread-safe: every call runs a
-// process of its own.
+// Runs Debian's gnuplot on a script and returns the picture. Any thread may call these functions; every call
+// runs a process of its own.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@ namespace fresco {
 
 inline constexpr int64_t kGnuplotTimeoutUs = 60'000'000;
 
-/// What gnuplot writes to its standard output on `script`; no user's or system's settings have a part in
-/// it. Throws Failure where the program is not in PATH (naming its Debian package), where it reports an
-/// error (with its own words), and where it takes longer than `timeout_us`, which ends it.
+/// Runs gnuplot on `script` without any settings of the user or the system, and returns its standard output.
+/// Throws Failure if gnuplot is not in PATH (the error names its Debian package), if gnuplot reports an error
+/// (the error quotes it), or if it takes longer than `timeout_us`; it is killed then.
 std::string RunGnuplot(const std::string& script, int64_t timeout_us = kGnuplotTimeoutUs);
 
-/// `text` as a string of a script. Nothing in it is special to gnuplot (the terminal must be
-/// `noenhanced`); what a picture can't show becomes a space (line ends, control characters) or U+FFFD
-/// (bytes that are not UTF-8).
+/// Returns `text` as a quoted string for a script, in which no character is special to gnuplot (the terminal
+/// must be `noenhanced`). Characters that a picture can't show become spaces (line ends, control characters)
+/// or U+FFFD (bytes that are not UTF-8).
 std::string GnuplotString(std::string_view text);
 
 }  // namespace fresco

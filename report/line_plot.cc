@@ -13,7 +13,7 @@ namespace fresco {
 namespace {
 
 constexpr int kPlotWidthPx = 800;
-constexpr int kPlotHeightPx = 470;  // without the legend
+constexpr int kPlotHeightPx = 470;  // height without the legend
 constexpr int kGapAxisPx = 92;
 
 struct Range {
@@ -24,7 +24,7 @@ struct Range {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// With room for markers on both sides.
+  /// Widens the range, so that there is room for markers on both sides.
   Range Padded(double low_share, double high_share) const {
     if (!(low <= high)) {
       return {0, 1};
@@ -86,7 +86,8 @@ Range YRange(const LinePlot& plot) {
   return padded;
 }
 
-/// A step of 1, 2 or 5 times a power of ten with at most ten tics in the range, not below one.
+/// Returns a step between tics of 1, 2 or 5 times a power of ten, at least one, so that the range has at most
+/// ten tics.
 double IntegerStep(Range range) {
   double step = 1;
   for (int i = 0; (range.high - range.low) / step > 10; ++i) {
@@ -95,7 +96,7 @@ double IntegerStep(Range range) {
   return step;
 }
 
-/// One line a point: x, y and the half width.
+/// The data of a curve, a line for each point: x, y, half of the spread.
 std::string DataScript(const Curve& curve, size_t number, double top_y) {
   std::string script = fmt::format("$curve{} << END\n", number);
   for (size_t i = 0; i < curve.x.size(); ++i) {
@@ -111,7 +112,7 @@ std::string SpreadCommand(const Curve& curve, size_t number) {
     return fmt::format("$curve{} using 1:($2-$3):($2+$3) with filledcurves {}", number,
                        ColourOption(curve.role, kNearlyClear));
   }
-  // Not yerrorbars: it leaves a gap around the point, even where none is drawn.
+  // Vectors instead of yerrorbars, which leave a gap around the point even if no point is drawn.
   return fmt::format(
       "$curve{} using ($1+{}):($3>0?$2-$3:NaN):(0):(2*$3) with vectors heads size graph 0.005,90 "
       "linewidth 1.1 {}",

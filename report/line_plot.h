@@ -1,5 +1,5 @@
-// Curves over a common x axis: what a policy reaches against a parameter of the scenario, or a run's
-// progress. Pure; any thread.
+// Draws curves over a common x axis, for example what policies reach against a parameter of the scenario, or
+// the progress of a run. Pure functions; any thread may call them.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,22 @@
 
 namespace fresco {
 
+/// How a curve's spread is drawn.
 enum class Spread { kBars, kBand };
 
 struct Curve {
-  std::string name;  ///< in the legend
+  std::string name;  ///< its text in the legend
   CurveRole role = CurveRole::kDqn;
   CurveShape shape = CurveShape::kLineAndMarkers;
-  std::vector<double> x{};            ///< finite
-  std::vector<double> y{};            ///< as many as x (none for kTopMarks); finite but for kFaintDots
-  std::vector<double> half_widths{};  ///< none, or as many as x, in y's unit; 0 or NaN: not known there
+  std::vector<double> x{};  ///< finite
+  std::vector<double> y{};  ///< one for each x, or empty for kTopMarks; finite, or NaN for kFaintDots
+  std::vector<double> half_widths{};  ///< half of the spread for each x, in y's unit; 0 or NaN: not known;
+                                      ///< may be empty
   Spread spread = Spread::kBars;
-  double bars_aside = 0;  ///< how far beside their points the bars stand, in x's unit: to tell curves apart
+  double bars_aside = 0;  ///< shift of the bars along x, so that those of several curves do not overlap
 };
 
-/// A horizontal line over the whole width, such as a bound.
+/// A horizontal line over the whole width, for example a bound.
 struct ReferenceLine {
   std::string name;
   CurveRole role = CurveRole::kOptimum;
@@ -35,16 +37,16 @@ struct LinePlot {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::vector<Curve> curves{};  ///< later ones are drawn over earlier ones; the legend has their order
+  std::vector<Curve> curves{};  ///< in the order of the legend; later ones are drawn over earlier ones
   std::vector<ReferenceLine> references{};
   bool integer_x_tics = false;
-  /// y can't be smaller: the axis does not go below it, though a spread might.
+  /// The least possible y: the axis does not go below it, even if a spread does.
   std::optional<double> least_y{};
-  /// Positive: the axis on the right shows how much above it a value is, in percent.
+  /// If set (> 0), an axis on the right shows how far a value is above it, in percent.
   std::optional<double> gap_base{};
 };
 
-/// At least one curve must have a point.
+/// Draws the plot. At least one curve must have a point.
 Picture DrawLinePlot(const LinePlot& plot);
 
 }  // namespace fresco

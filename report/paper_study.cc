@@ -10,8 +10,8 @@
 namespace fresco {
 namespace {
 
-/// The set that is usual in the literature on rotary-wing UAVs (Zeng, Xu and Zhang, "Energy Minimization
-/// for Wireless Communication with Rotary-Wing UAV", 2019): flying at 25 m/s takes 249 W, hovering 168.5 W.
+/// The rotor parameters that are usual in the literature (Zeng, Xu and Zhang, "Energy Minimization for
+/// Wireless Communication with Rotary-Wing UAV", 2019). Flying at 25 m/s takes 249 W, hovering takes 168.5 W.
 void SetDearFlight(proto::Rotor& rotor) {
   rotor.set_blade_profile_power_w(79.86);
   rotor.set_induced_power_w(88.63);

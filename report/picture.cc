@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kFontPx = 14;
 constexpr int kTitlePx = 16;
-// Arial is what every system has under this or another name of the same widths.
+// Every system has Arial or a font with the same widths.
 constexpr const char* kFont = "Arial";
 
 constexpr double kPointsPerPixel = 0.75;
@@ -48,9 +48,9 @@ constexpr double kBetweenEntriesPx = 28;
 constexpr int kRowPx = 24;
 constexpr int kBelowPx = 10;
 
-constexpr double kEdgePx = 18;  // from the middle of an axis' label to the picture's edge or the legend
+constexpr double kEdgePx = 18;  // from the middle of an axis's label to the picture's edge or the legend
 
-/// About, for Arial: the legend need not be exact to look even.
+/// Estimates the width of a text in Arial. The legend does not need the exact width.
 double TextWidthPx(const std::string& text) {
   double width = 0;
   for (const char letter : text) {
@@ -135,7 +135,7 @@ std::string FrameScript(const Frame& frame, const Picture& picture, const Legend
                         1 - frame.right_px / width);
   script += fmt::format("set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n",
                         (frame.bottom_px + legend.height_px()) / height, 1 - frame.top_px / height);
-  // Labels in places of our own, for the same reason as the legend.
+  // The labels have fixed positions, for the same reason as the legend.
   script += fmt::format("set label {} at graph 0.5, screen {:.5f} center font title_font {}\n",
                         GnuplotString(frame.title), 1 - frame.top_px / 2.0 / height, text);
   script += fmt::format("set label {} at graph 0.5, screen {:.5f} center {}\n", GnuplotString(frame.x_label),

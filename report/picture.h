@@ -1,5 +1,6 @@
-// A figure as a script that draws it, its legend and its two files: SVG for papers and browsers, PNG for
-// everything else. The same picture gives the same bytes on the same machine. Any thread.
+// Turns gnuplot scripts into picture files (SVG and PNG), and makes the parts that all figures share: legend,
+// title, axes. The same picture gives the same bytes on the same machine. Any thread may call these
+// functions.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +9,8 @@
 
 namespace fresco {
 
-/// Okabe and Ito's colours, which people with any kind of colour vision can tell apart, as gnuplot's
-/// "rgb '#RRGGBB'" wants them.
+/// The colours of Okabe and Ito, which people with any kind of colour vision can distinguish, in gnuplot's
+/// form "#RRGGBB".
 namespace colour {
 inline constexpr const char* kBlack = "#000000";
 inline constexpr const char* kOrange = "#E69F00";
@@ -18,29 +19,29 @@ inline constexpr const char* kGreen = "#009E73";
 inline constexpr const char* kBlue = "#0072B2";
 inline constexpr const char* kVermillion = "#D55E00";
 inline constexpr const char* kPurple = "#CC79A7";
-inline constexpr const char* kGrey = "#777777";  // not theirs
+inline constexpr const char* kGrey = "#777777";  // this and the following are not of Okabe and Ito
 inline constexpr const char* kText = "#222222";
 inline constexpr const char* kGrid = "#DDDDDD";
 }  // namespace colour
 
 struct Picture {
-  int width_px = 0;  ///< of the SVG; the PNG has twice as many either way
-  int height_px = 0;
-  /// What gnuplot is to draw, without a terminal. Texts in it come from GnuplotString.
+  int width_px = 0;   ///< of the SVG file; the PNG file is twice as wide
+  int height_px = 0;  ///< of the SVG file; the PNG file is twice as high
+  /// The gnuplot commands, without those that set the terminal. GnuplotString makes the texts in it.
   std::string script;
 };
 
-/// Writes `<stem>.svg` and `<stem>.png`, each of them whole or not at all, and none where gnuplot fails.
+/// Writes `<stem>.svg` and `<stem>.png`, each completely or not at all. If gnuplot fails, writes neither.
 /// Throws what RunGnuplot and WriteFileAtomically throw.
 void WritePicture(const Picture& picture, const std::filesystem::path& stem);
 
-/// What explains a line or a mark below the plot. gnuplot's own legend has another width in each kind of
-/// file, and so doesn't stay in its place.
+/// An entry of the legend below the plot, which explains a line or a mark. (gnuplot's own legend is not used:
+/// its width, and so its position, depends on the kind of file.)
 struct LegendEntry {
   std::string name;
   std::string colour;  ///< gnuplot's option: "linecolor rgb '#000000'"
-  std::string line;    ///< other line options; empty: no line
-  std::string point;   ///< other point options; empty: no point
+  std::string line;    ///< further options of the line; empty: no line
+  std::string point;   ///< further options of the point; empty: no point
 };
 
 /// A legend of one or more centred rows along the lower edge of a picture.
@@ -49,7 +50,7 @@ class Legend {
   Legend(std::vector<LegendEntry> entries, int width_px);
 
   int height_px() const;
-  /// The commands that draw it in a picture of that height.
+  /// Returns the commands that draw the legend in a picture of this height.
   std::string Script(int picture_height_px) const;
 
  private:
@@ -61,17 +62,18 @@ class Legend {
   std::vector<Row> rows_;
 };
 
-/// The part that every figure begins with: title, axes' labels, fonts, colours, margins in pixels.
+/// What every figure begins with: title, labels of the axes, margins.
 struct Frame {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::string right_label{};  ///< along the right edge
+  std::string right_label{};  ///< label along the right edge
   int left_px = 76;
   int right_px = 24;
   int top_px = 48;
   int bottom_px = 70;  ///< without the legend
 };
+/// Returns the commands for the frame, the fonts and the colours of a figure.
 std::string FrameScript(const Frame& frame, const Picture& picture, const Legend& legend);
 
 }  // namespace fresco

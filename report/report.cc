@@ -25,7 +25,7 @@ constexpr std::string_view kStyle =
 constexpr std::string_view kFlightPlayer =
 #include "report/flight_player.html.inc"
     ;
-// One script; each file uses what stands in those before it.
+// The page's script. Each file uses functions of the files before it.
 constexpr std::string_view kScript =
 #include "report/aoi_bars.js.inc"
 #include "report/flight_data.js.inc"
@@ -52,8 +52,8 @@ bool IsSvgDocument(std::string_view text) {
   return text.find("<svg") != std::string_view::npos && text.find("</svg>") != std::string_view::npos;
 }
 
-/// As an image of its own: its ids clash with no other figure's, its scripts do not run, and it can
-/// load nothing.
+/// Returns the figure as an image. So its ids do not clash with those of other figures, its scripts do not
+/// run, and it can't load anything.
 std::string FigureImage(const ReportFigure& figure) {
   if (!IsSvgDocument(figure.svg)) {
     return fmt::format(
@@ -95,8 +95,8 @@ OrderedJson WorldJson(const World& world) {
           {"sensors", std::move(sensors)}};
 }
 
-/// What `fresco evaluate --format json` prints, and in each slot whether the scheduled sensor is
-/// collected: whether the UAV covers it.
+/// Returns what `fresco evaluate --format json` prints, and adds for each slot whether the scheduled sensor
+/// is collected, that is, covered.
 OrderedJson FlightDataJson(const World& world, const Flight& flight) {
   OrderedJson json = OrderedJson::parse(FlightJson(world, flight, ""));
   for (size_t slot = 0; slot < flight.slots.size(); ++slot) {
@@ -114,7 +114,7 @@ std::string FlightsHtml(const World& world, const std::vector<ReportFlight>& fli
     array.back()["policy"] = flight.name;
   }
   const OrderedJson data = {{"world", WorldJson(world)}, {"flights", std::move(array)}};
-  // A name that is no UTF-8 is shown with replacement characters.
+  // Bytes of a name that are not UTF-8 become replacement characters.
   const std::string text = data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   return FilledTemplate(kFlightPlayer, {{"data", EscapedJson(text)}});
 }

@@ -1,6 +1,6 @@
-// The report page: one HTML file with the numbers, figures and flights of a run or of a study. It
-// needs nothing but itself: no network, no other file. Its parts stand in report/ and are
-// embedded into the program. Pure; any thread.
+// Makes the report page: one HTML file with the numbers, figures and flights of a run or of a study. The page
+// loads nothing from the network or from other files. Its templates and scripts are the other files in
+// report/, which are embedded into the program. A pure function; any thread may call it.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ namespace fresco {
 struct ReportFigure {
   std::string title;
   std::string caption;  ///< may be empty
-  std::string svg;      ///< the text of an SVG document; any ids: figures do not see each other
+  std::string svg;      ///< the text of an SVG document; its ids may be those of other figures
 };
 
-/// A table, or a list of names and values where `header` is empty. The first column names the row.
-/// Every row has as many cells as the header (as the first row, where there is none).
+/// A table, or a list of names and values if `header` is empty. The first column names the row. Every row has
+/// as many cells as the header, or as the first row if there is no header.
 struct ReportTable {
   std::string title;
   std::vector<std::string> header;
@@ -25,24 +25,24 @@ struct ReportTable {
 };
 
 struct ReportFlight {
-  std::string name;  ///< what the reader chooses it by: "this run (DQN)", "exact optimum"
+  std::string name;  ///< its name on the page: "this run (DQN)", "exact optimum"
   Flight flight;
 };
 
-/// All texts are plain: the page shows them as they are, whatever they contain. What is empty is
-/// left out of the page.
+/// All texts are plain text; the page shows every character of them as it is. Empty members are left out of
+/// the page.
 struct ReportContents {
   std::string title;
   std::string summary;
   std::vector<ReportTable> tables;
   std::vector<ReportFigure> figures;
-  std::vector<ReportFlight> flights;  ///< all in `world`; the first is shown first
-  const World* world = nullptr;       ///< must be given where there are flights
-  std::string configuration;          ///< text format
+  std::vector<ReportFlight> flights;  ///< all flown in `world`; the page shows the first one first
+  const World* world = nullptr;       ///< must be set if there are flights
+  std::string configuration;          ///< in text format
 };
 
-/// The page. A figure whose text is no SVG document is reported in its place. Sizes: the page carries
-/// every AoI of every slot, about 4 bytes each.
+/// Returns the page. If a figure's text is not an SVG document, the page says so in its place. The page
+/// contains every AoI of every slot, which take about 4 bytes each.
 std::string ReportPage(const ReportContents& contents);
 
 }  // namespace fresco

@@ -10,7 +10,8 @@
 namespace fresco {
 namespace {
 
-/// Numbers may have a sign before and a unit behind them; a dash or nothing stands for a missing one.
+/// Whether a cell counts as a number. It may have a sign before it and a unit behind it. A dash or an empty
+/// cell counts, too: it stands for a missing number.
 bool IsNumber(std::string_view cell) {
   constexpr std::string_view kSigns[] = {"-", "+", "\u2212", "\u2013", "\u2014", "\u00b1", "<", ">", "~"};
   for (const std::string_view sign : kSigns) {
@@ -60,7 +61,7 @@ std::string Row(const std::vector<std::string>& cells, const std::vector<bool>& 
 
 std::string TableHtml(const ReportTable& table) {
   const std::vector<bool> numeric = NumericColumns(table);
-  // Focusable, so that it can be scrolled with the keyboard.
+  // tabindex lets the keyboard scroll the table.
   std::string html = fmt::format(
       "<div class=\"table\" role=\"region\" aria-label=\"{0}\" tabindex=\"0\">\n"
       "<table>\n<caption>{0}</caption>\n",

@@ -1,4 +1,4 @@
-// A table of the report page as HTML. Pure.
+// Makes the HTML of a table of the report page. A pure function; any thread may call it.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace fresco {
 
-/// Columns of numbers are aligned at the right. The table scrolls by itself where it is too wide.
+/// Returns the table's HTML. Columns of numbers are aligned at the right. If the table is too wide, it can be
+/// scrolled.
 std::string TableHtml(const ReportTable& table);
 
 }  // namespace fresco

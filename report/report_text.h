@@ -1,4 +1,4 @@
-// How texts and data go into a page: escaped for where they stand, by filling a template. Pure.
+// Escapes texts and data for an HTML page, and fills templates. Pure functions; any thread may call them.
 #pragma once
 
 #include <map>
@@ -7,18 +7,18 @@
 
 namespace fresco {
 
-/// For text between tags and for attribute values in quotes.
+/// Escapes text for use between tags and in quoted attribute values.
 std::string EscapedHtml(std::string_view text);
 
-/// JSON for a <script> element: with no "<" in it, nothing in the data can end the element. (In JSON
-/// "<" stands in strings only, where it may be written \u003c.)
+/// Escapes JSON for use in a <script> element: writes every "<" as \u003c, so nothing in the data can end the
+/// element. (In JSON, "<" occurs in strings only.)
 std::string EscapedJson(std::string_view json);
 
-/// RFC 3986: everything but the unreserved characters as %XX.
+/// Encodes everything except the unreserved characters of RFC 3986 as %XX.
 std::string PercentEncoded(std::string_view text);
 
-/// The page with every {{name}} replaced by the part of that name, which must be there. Parts are not
-/// looked at again: a text that contains {{name}} stays as it is.
+/// Returns the page with every {{name}} replaced by the part of that name; CHECKs that there is one. A
+/// {{name}} inside a part is not replaced.
 std::string FilledTemplate(std::string_view page, const std::map<std::string_view, std::string>& parts);
 
 }  // namespace fresco

@@ -32,7 +32,7 @@ std::vector<std::string> Split(const std::string& line) {
 size_t ColumnOf(const std::vector<std::string>& header, const std::string& name, const Path& file) {
   const auto found = std::find(header.begin(), header.end(), name);
   if (found == header.end()) {
-    throw UsageError(fmt::format("{}: has no column {}", file.string(), name));
+    throw UsageError(fmt::format("{}: expected a column {}, found none", file.string(), name));
   }
   return static_cast<size_t>(found - header.begin());
 }
@@ -125,7 +125,7 @@ void WriteRunReport(const Path& folder) {
                                              folder / "learning_curve", "Learning curve",
                                              "One greedy flight of every evaluated version of the network."));
     } catch (const Error& error) {
-      spdlog::warn("report.html is without the learning curve: {}", error.what());
+      spdlog::warn("report.html has no learning curve: {}", error.what());
     }
   }
   contents.flights = run.flights();

@@ -1,5 +1,5 @@
-// What a run's folder tells once the run is over: its learning curve, its flight beside the others, and
-// the page that shows both. Used by one thread.
+// Reads the folder of a run that has ended and writes its report: the learning curve, and the run's flight
+// beside those of the baselines and the optimum. Only one thread at a time may use a folder.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,22 @@
 
 namespace fresco {
 
-/// A run as it stands in its folder. Not movable: the flights are in its world.
+/// A run that was read from its folder. It can't be moved, since its flights refer to its world.
 class FinishedRun {
  public:
-  /// Throws UsageError where the folder holds no run that has ended.
+  /// Throws UsageError if the folder does not hold a run that has ended.
   explicit FinishedRun(const std::filesystem::path& folder);
   FinishedRun(const FinishedRun&) = delete;
   FinishedRun& operator=(const FinishedRun&) = delete;
 
   const Experiment& experiment() const { return experiment_; }
   const World& world() const { return world_; }
-  /// summary.json's text.
+  /// The text of summary.json.
   const std::string& summary() const { return summary_; }
-  /// The run's best evaluated policy first where there is one, the optimum (or the best flight that the
-  /// search found) where it was searched for, both baselines.
+  /// The flights of the run's best evaluated policy (if there is one), of the optimum or the best flight that
+  /// the search found (if there was a search), and of both baselines.
   const std::vector<ReportFlight>& flights() const { return flights_; }
-  /// Has no points where nothing was evaluated.
+  /// Has no points if nothing was evaluated.
   const LearningCurve& learning_curve() const { return learning_curve_; }
 
  private:
@@ -41,15 +41,16 @@ class FinishedRun {
   LearningCurve learning_curve_;
 };
 
-/// Draws a figure as `<stem>.svg` and `<stem>.png` and takes it into a report.
+/// Writes a figure as `<stem>.svg` and `<stem>.png`, and returns it for a report. Throws as WritePicture
+/// does.
 ReportFigure WriteFigure(const Picture& picture, const std::filesystem::path& stem, const std::string& title,
                          const std::string& caption);
 
-/// The table of a run's policies, from its summary.
+/// Returns the table of a run's policies (PolicyRows in train_display.h) for a report.
 ReportTable PolicyTable(const std::string& summary_json);
 
-/// Writes report.html, and the learning curve as SVG and PNG, into a run's folder. Without gnuplot the
-/// page has no curve, and a warning says so.
+/// Writes report.html, and the learning curve as SVG and PNG, to a run's folder. If gnuplot is missing or
+/// fails, the page has no curve, and a warning is logged.
 void WriteRunReport(const std::filesystem::path& folder);
 
 }  // namespace fresco

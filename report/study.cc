@@ -49,7 +49,7 @@ class Study {
       }
       if (StopSignal::Requested()) {
         EndAll();
-        throw Failure(fmt::format("stopped; {} of {} runs are complete, and the same command goes on there",
+        throw Failure(fmt::format("stopped; {} of {} runs are complete; the same command continues the study",
                                   jobs_.size() - to_run_ + done_, jobs_.size()));
       }
       ShowProgress();
@@ -63,10 +63,10 @@ class Study {
     std::unique_ptr<TrainingRun> run;
   };
 
-  /// All jobs are checked before the first is started: the last of them may begin an hour later.
+  /// Called for all jobs before the first run starts, since the last one may start an hour later.
   void CheckJob(size_t job) const {
     InterruptedRun(FolderOf(job), jobs_[job]);
-    if (waiting_.empty()) {  // the bus of one is that of all
+    if (waiting_.empty()) {  // only for the first job, since all have the same bus
       CheckRunAndBus(jobs_[job].experiment, options_.bus);
     } else {
       CheckRun(jobs_[job].experiment);
@@ -89,10 +89,10 @@ class Study {
     const Path folder = FolderOf(job);
     const Experiment experiment = ExperimentAt(place, job);
     if (std::optional<Resumption> interrupted = InterruptedRun(folder, jobs_[job])) {
-      interrupted->experiment = experiment;  // the same but for `run`: place and LCM URL may be others now
+      interrupted->experiment = experiment;  // differs in `run` only: place and LCM URL may have changed
       return std::make_unique<TrainingRun>(*interrupted, folder, options_.bus);
     }
-    std::filesystem::remove_all(folder);  // what was left there is nothing to go on from
+    std::filesystem::remove_all(folder);  // a run can't continue from what is there
     return std::make_unique<TrainingRun>(experiment, folder, options_.bus);
   }
 
@@ -106,7 +106,7 @@ class Study {
   void Finish(size_t place) {
     Running& running = *running_[place];
     const int status = running.run->End();
-    running.run->Summary();  // throws in the learner's own words if there is none
+    running.run->Summary();  // throws with the learner's own words if there is no summary
     const auto result = CompleteResult(FolderOf(running.job), jobs_[running.job]);
     if (!result && !StopSignal::Requested()) {
       throw Failure(fmt::format("run {} ended with exit status {}; see {}", jobs_[running.job].name, status,
@@ -160,7 +160,7 @@ class Study {
   const std::vector<StudyJob>& jobs_;
   const StudyOptions& options_;
   std::vector<StudyResult> results_;
-  std::deque<size_t> waiting_;                   // jobs
+  std::deque<size_t> waiting_;                   // indices of jobs that have not started
   std::vector<std::optional<Running>> running_;  // by place
   size_t to_run_ = 0;
   size_t done_ = 0;

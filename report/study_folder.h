@@ -1,4 +1,5 @@
-// What a study finds in a run's folder: its result, or what to go on from. Reads only.
+// Reads what a study needs from a run's folder: its result, or what is needed to resume it. Changes nothing;
+// any thread may call these functions.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +11,18 @@
 
 namespace fresco {
 
-/// What the summary (JSON) of the run in `folder` says. Throws Failure where the search for its optimum
-/// failed.
+/// Returns the result of the run in `folder` from its summary (JSON). Throws Failure if the search for its
+/// optimum failed.
 StudyResult ResultOf(const std::string& summary, const std::filesystem::path& folder);
 
-// Both throw UsageError where the folder holds a run of another configuration than the job's.
+// The following functions throw UsageError if the folder holds a run with another configuration than the
+// job's.
 
-/// Of a run of which nothing is left to do (IsFinished); none if it has to be run, or run on.
+/// Returns the result of a finished run (IsFinished); none if it still has to be run or resumed.
 std::optional<StudyResult> CompleteResult(const std::filesystem::path& folder, const StudyJob& job);
 
-/// Of a run that an interrupted study left; none where it left no checkpoint. Throws UsageError also where
-/// none of its checkpoints can be read.
+/// Returns what is needed to resume a run that was interrupted; none if it has no checkpoint. Also throws
+/// UsageError if it has checkpoints but none can be read.
 std::optional<Resumption> InterruptedRun(const std::filesystem::path& folder, const StudyJob& job);
 
 }  // namespace fresco

@@ -1,4 +1,5 @@
-// What a person sees of a run: a line while it is going, a table at the end. Pure.
+// Makes the texts that `train` shows of a run: a line of progress, and a table at the end. Pure functions;
+// any thread may call them.
 #pragma once
 
 #include <string>
@@ -8,21 +9,22 @@
 
 namespace fresco {
 
-/// One line: first the learner's warning, if there is one, which no narrow terminal may cut off; episodes,
-/// updates, epsilon, greedy average AoI and, once the optimum is proved, its gap, rates, who waits for whom.
-/// After the last episode it begins with what is waited for.
+/// Returns a line of progress: episodes, updates, epsilon, greedy average AoI (and its gap if the optimum is
+/// proved), rates, and who waits for whom. The learner's warning comes first, if there is one, so that a
+/// narrow terminal does not cut it off. After the last episode the line begins with what the learner waits
+/// for.
 std::string ProgressLine(const learner_status_t& status);
 
-/// A heading and a row for this run, each baseline and the exact optimum, from a summary's JSON: policy,
-/// average AoI, total AoI, gap, arrived. If the optimum is not proved, the best flight that the search found
-/// stands in its place, and no row has a gap.
+/// Returns a heading and a row for this run, each baseline and the exact optimum, from a summary's JSON. The
+/// columns are policy, average AoI, total AoI, gap, arrived. If the optimum is not proved, the last row is
+/// the best flight that the search found, and no row has a gap.
 std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json);
 
-/// If the optimum was searched for and is not proved: why, what is proved instead, and what follows from that
-/// for this run. Empty otherwise.
+/// If there was a search and the optimum is not proved, returns a note: why not, what is proved instead, and
+/// what that means for this run. Otherwise returns "".
 std::string OptimumNote(const std::string& summary_json);
 
-/// The final table: the rows, then the note, from a summary's JSON.
+/// Returns the final table of a run, followed by the note, from a summary's JSON.
 std::string ResultTable(const std::string& summary_json);
 
 }  // namespace fresco

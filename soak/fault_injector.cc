@@ -23,7 +23,8 @@ void FaultInjector::Step(TrainingRun& run, int64_t elapsed_us, bool quiet) {
 }
 
 void FaultInjector::Inject(TrainingRun& run, const Fault& fault, int64_t elapsed_us) {
-  const int64_t until_us = elapsed_us + fault.duration_us;  // a fault is late where a resumption took long
+  const int64_t until_us = elapsed_us + fault.duration_us;  // from now: a long resumption may have delayed
+                                                            // the fault
   switch (fault.kind) {
     case FaultKind::kKillActor:
       run.SignalActor(fault.actor, SIGKILL);
@@ -47,7 +48,8 @@ void FaultInjector::Inject(TrainingRun& run, const Fault& fault, int64_t elapsed
   faults_.push_back({fault, WallMicroseconds(), committed_});
 }
 
-/// A process that is stopped twice goes on when the first stop is over.
+/// Continues the processes whose stop is over. A process that was stopped twice continues when the first stop
+/// is over.
 void FaultInjector::ContinueWhere(TrainingRun& run, const std::function<bool(const Stop&)>& over) {
   for (const Stop& stop : stops_) {
     if (over(stop) && stop.actor < 0) {
@@ -95,11 +97,11 @@ std::vector<pid_t> FaultInjector::GuestPids() const {
 }
 
 void FaultInjector::NoteGuestEnd(const Guest& guest, int status) {
-  // Told to end before its handlers were installed, it ends by the signal itself.
+  // If it gets the signal before it has installed its handlers, it ends by the signal itself.
   const bool as_told = guest.told && (status == 0 || status == 128 + SIGTERM ||
                                       (guest.leaves_by == SIGKILL && status == 128 + SIGKILL));
   if (!as_told) {
-    guest_failure_ = fmt::format("an actor that had joined from outside ended {} with exit status {}",
+    guest_failure_ = fmt::format("an actor that had joined the run ended {} with exit status {}",
                                  guest.told ? "when it was told to leave" : "by itself", status);
   }
 }

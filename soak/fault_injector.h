@@ -1,4 +1,5 @@
-// Does to a run what a FaultPlan says, and measures how long the run takes to recover. Used by one thread.
+// Injects the faults of a FaultPlan into a run, and measures how long the run takes to recover from each. One
+// round of a soak owns one. Only one thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -15,41 +16,43 @@
 
 namespace fresco {
 
-/// A fault that took place.
+/// A fault that was injected.
 struct InjectedFault {
   Fault fault;
-  int64_t wall_us = 0;                    ///< when, since the epoch
-  int64_t committed_before = 0;           ///< orders
-  std::optional<double> recovery_s = {};  ///< until the learner reported more committed orders than before
+  int64_t wall_us = 0;                    ///< time of the fault, microseconds since the epoch
+  int64_t committed_before = 0;           ///< orders committed before the fault
+  std::optional<double> recovery_s = {};  ///< time until the learner reported more committed orders; none: it
+                                          ///< did not
 };
 
 class FaultInjector {
  public:
-  /// Starts the actor that joins from outside.
+  /// Starts a guest: an actor that is not one of the run's local actors.
   using GuestStarter = std::function<std::unique_ptr<ChildProcess>()>;
 
   FaultInjector(const FaultPlan& plan, GuestStarter start_guest);
 
-  /// Does what is due `elapsed_us` after the round's beginning; with `quiet`, only what ends a fault.
+  /// Injects and ends the faults that are due `elapsed_us` after the beginning of the round. If `quiet` is
+  /// set, injects no new ones.
   void Step(TrainingRun& run, int64_t elapsed_us, bool quiet);
 
-  /// Lets everything that is stopped go on; before the processes are told to end.
+  /// Continues all stopped processes. Call it before ending the processes.
   void Continue(TrainingRun& run);
-  /// Sends the guests away and waits for them.
+  /// Ends the guests and waits for them.
   void EndGuests();
-  /// Of the actors that have joined from outside.
+  /// The process ids of the guests that are running.
   std::vector<pid_t> GuestPids() const;
 
-  /// The learner reported, at `wall_us`, so many committed orders.
+  /// Takes note that the learner reported so many committed orders at `wall_us`.
   void NoteProgress(int64_t committed_orders, int64_t wall_us);
-  /// The run came to its end: everything has recovered.
+  /// Takes note that the run was completed at `wall_us`, so it has recovered from all faults.
   void NoteEnd(int64_t wall_us);
 
-  /// Whether a learner was killed since this was last asked.
+  /// Whether a learner was killed since the last call.
   bool TakeLearnerKill();
 
   const std::vector<InjectedFault>& faults() const { return faults_; }
-  /// A guest that ended by itself, or not as it was told; empty: none.
+  /// Describes a guest that ended by itself or with a wrong exit status; empty if there was none.
   const std::string& guest_failure() const { return guest_failure_; }
 
  private:
@@ -60,8 +63,8 @@ class FaultInjector {
   struct Guest {
     std::unique_ptr<ChildProcess> process;
     int64_t until_us;
-    int leaves_by;  // signal
-    bool told = false;
+    int leaves_by;      // the signal that ends it
+    bool told = false;  // whether it was sent that signal
   };
 
   void Inject(TrainingRun& run, const Fault& fault, int64_t elapsed_us);
@@ -75,7 +78,7 @@ class FaultInjector {
   std::vector<InjectedFault> faults_;
   std::vector<Stop> stops_;
   std::vector<Guest> guests_;
-  int64_t committed_ = 0;  // orders, the most that was reported
+  int64_t committed_ = 0;  // the most committed orders that the learner has reported
   bool learner_killed_ = false;
   std::string guest_failure_;
 };

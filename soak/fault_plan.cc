@@ -7,7 +7,7 @@
 namespace fresco {
 namespace {
 
-// Second indices of the streams of (seed, kTest, round, …); 0 is the lossy bus's.
+// The last indices of the random streams (seed, kTest, round, index). The lossy bus uses index 0.
 constexpr uint32_t kFaultStream = 1;
 constexpr uint32_t kDisturbanceStream = 2;
 
@@ -73,7 +73,7 @@ Fault FaultPlan::Next() {
   return fault;
 }
 
-/// Both ends included.
+/// Draws a number from low .. high, both included.
 int64_t FaultPlan::DrawBetween(int64_t low, int64_t high) {
   return low + stream_.NextBelow(static_cast<uint32_t>(high - low + 1));
 }

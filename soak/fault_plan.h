@@ -1,5 +1,6 @@
-// What happens to a run in one round of a soak: an endless sequence of faults and the disturbance of its
-// messages, a pure function of (seed, round, actors), so that a round can be had again. Pure.
+// Plans what happens to a run in one round of a soak: an endless sequence of faults, and the disturbance of
+// its messages. The plan is a pure function of seed, round and number of actors, so a round can be repeated.
+// Only one thread may use an object.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 
 namespace fresco {
 
+/// Kill: SIGKILL. Stop: SIGSTOP, and SIGCONT later. Guest: a further actor joins for some time.
 enum class FaultKind { kKillActor, kStopActor, kKillLearner, kStopLearner, kGuestActor };
 inline constexpr std::array kFaultKinds = {FaultKind::kKillActor, FaultKind::kStopActor,
                                            FaultKind::kKillLearner, FaultKind::kStopLearner,
@@ -20,11 +22,11 @@ inline constexpr std::array kFaultKinds = {FaultKind::kKillActor, FaultKind::kSt
 const char* FaultKindName(FaultKind kind);
 
 struct Fault {
-  int64_t at_us = 0;  ///< after the round's beginning
+  int64_t at_us = 0;  ///< time of the fault after the beginning of the round
   FaultKind kind = FaultKind::kKillActor;
-  int actor = -1;            ///< the place of the actor that it befalls; -1: none
-  int64_t duration_us = 0;   ///< of a stop, or of a guest's stay; 0: a kill
-  bool ends_killed = false;  ///< a guest: it does not leave in order, but is killed
+  int actor = -1;            ///< number of the local actor, 0, 1, ..; -1: the fault concerns none
+  int64_t duration_us = 0;   ///< length of a stop or of a guest's stay; 0 for a kill
+  bool ends_killed = false;  ///< for a guest: it ends by SIGKILL instead of SIGTERM
 
   friend bool operator==(const Fault&, const Fault&) = default;
 };
@@ -34,13 +36,14 @@ class FaultPlan {
   static constexpr int64_t kShortestGapUs = 200'000;
   static constexpr int64_t kLongestGapUs = 1'400'000;
 
-  /// `round` from 1 on; `actors` local actors, at least one.
+  /// `round` is 1, 2, ..; `actors` (>= 1) is the number of local actors.
   FaultPlan(uint64_t seed, int round, int actors);
 
-  /// Loss, repetition, delay and corruption of what every process sends in this round.
+  /// Loss, repetition, delay and corruption of all messages that are sent in this round.
   const LossOptions& disturbance() const { return disturbance_; }
 
-  /// The next fault, later than the one before. Every kind occurs once in five faults, in a drawn order.
+  /// Returns the next fault, kShortestGapUs to kLongestGapUs after the one before. Of every five faults, one
+  /// is of each kind, in random order.
   Fault Next();
 
  private:
@@ -51,7 +54,7 @@ class FaultPlan {
   uint32_t actors_;
   LossOptions disturbance_;
   int64_t at_us_ = 0;
-  std::vector<FaultKind> bag_;  // kinds that this block of five has yet to have
+  std::vector<FaultKind> bag_;  // the kinds that are left for the present five faults
 };
 
 }  // namespace fresco

@@ -19,7 +19,7 @@ Path FolderOf(pid_t pid) {
   return Path("/proc") / std::to_string(pid);
 }
 
-/// -1 where it can't be read: the process has just ended.
+/// Returns -1 if they can't be read because the process has just ended.
 int CountDescriptors(pid_t pid) {
   std::error_code error;
   std::filesystem::directory_iterator entry(FolderOf(pid) / "fd", error);

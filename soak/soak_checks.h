@@ -1,5 +1,6 @@
-// What a soak holds a round against, and what it finds. Each check returns sentences, none where all is
-// well. Pure.
+// Compares a round of a soak with the undisturbed run. Each check returns sentences that describe problems,
+// and none if there are none. Any thread may call these functions; only ReadRunFacts and IsComplete read
+// files.
 #pragma once
 
 #include <cstdint>
@@ -10,35 +11,36 @@
 
 namespace fresco {
 
-/// What a run came to; equal for every run of a configuration, whatever happens to it.
+/// The results of a run that must be equal for every run of a configuration, whatever happens to it.
 struct RunFacts {
   std::string weights_crc32c;  ///< of the final network
   std::string final_network;   ///< final.network, byte for byte
   int64_t episodes = 0;
   int64_t transitions = 0;
   int64_t updates = 0;
-  int64_t total_aoi = 0;  ///< of the best evaluated version; -1: none arrived
+  int64_t total_aoi = 0;  ///< of the best evaluated version; -1: none was evaluated
 };
 
-/// Of a complete run's folder. Throws where a file is missing or is not what the learner writes.
+/// Reads the folder of a complete run. Throws if a file is missing or damaged.
 RunFacts ReadRunFacts(const std::filesystem::path& folder);
-/// Whether the run in the folder came to its end.
+/// Whether the folder holds a complete run.
 bool IsComplete(const std::filesystem::path& folder);
 
-/// What a disturbed run has that the undisturbed one has not.
+/// Returns the differences between the results of the two runs.
 std::vector<std::string> Differences(const RunFacts& undisturbed, const RunFacts& disturbed);
 
-/// Programs that used more than the undisturbed run's: peak memory beyond 1.25 times and the allowance, or
-/// more than a few descriptors.
+/// Returns the programs that used much more under faults than undisturbed: more peak memory than 1.25 times
+/// plus the allowance, or more than a few additional descriptors.
 std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByProgram& disturbed,
                                   int64_t memory_allowance_kib);
 
-/// What a series gained from its first value to its last along its trend: the median of all slopes between
-/// two values (Theil and Sen), so that neither noise nor a single step counts. 0 for fewer than four.
+/// Returns how much a series grew along its trend from the first value to the last. The slope of the trend is
+/// the median of the slopes between any two values (Theil and Sen), so noise and single steps do not count.
+/// Returns 0 for fewer than four values.
 double Growth(const std::vector<double>& series);
 
-/// Growth of this program over the rounds, one value after each: memory by more than the allowance,
-/// descriptors by more than two.
+/// Checks the growth of this program, with one measurement after each round: reports memory that grew by more
+/// than the allowance, and descriptors that grew by more than two.
 std::vector<std::string> Leaks(const std::vector<ProcessUse>& after_rounds, int64_t memory_allowance_kib);
 
 }  // namespace fresco

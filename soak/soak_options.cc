@@ -19,25 +19,24 @@ std::string QuotedForShell(const std::string& argument) {
 }  // namespace
 
 void AddSoakOptions(CLI::App& soak, SoakOptions& options) {
-  soak.add_option("--minutes", options.minutes, "For so long; at least one round is run whatever it takes")
+  soak.add_option("--minutes", options.minutes, "How long to run; at least one round is run in any case")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e5));
   soak.add_option("--config", options.config, ConfigHelp("ci with 2,000 episodes"));
   soak.add_option("--set", options.settings, "Override one field: path=value; may be repeated");
   soak.add_option("--actors", options.actors, "Local actor processes")->check(CLI::Range(1, 1024));
-  soak.add_option("--seed", options.seed, "Of the faults")->capture_default_str();
+  soak.add_option("--seed", options.seed, "Seed of the faults")->capture_default_str();
   soak.add_option("--first-round", options.first_round, "Begin with this round's faults")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000'000));
-  soak.add_option("--rounds", options.rounds, "So many rounds at most; default: what fits into the time")
+  soak.add_option("--rounds", options.rounds, "The most rounds to run; default: as many as fit into the time")
       ->check(CLI::Range(1, 1'000'000'000));
   soak.add_option("--out", options.out, "New folder for the runs; default: one under runs/");
   soak.add_option("--lcm-url", options.lcm_url, "Where learner and actors meet");
   AddKeyFileOption(soak, options.key_file);
-  soak.add_option(
-          "--memory-allowance-mib", options.memory_allowance_mib,
-          "A program under faults may need so much more than 1.25 times its memory without them; the soak "
-          "itself may grow by twice as much over its rounds")
+  soak.add_option("--memory-allowance-mib", options.memory_allowance_mib,
+                  "Under faults, a program may need 1.25 times its memory without faults plus so much; the "
+                  "soak itself may grow by twice as much over its rounds")
       ->capture_default_str()
       ->check(CLI::Range(0, 1 << 20));
   soak.add_option("--format", options.format, "text or json")->check(OneOf({"text", "json"}));

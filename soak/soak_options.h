@@ -1,4 +1,5 @@
-// What `fresco soak` is asked to do, and what follows from it for its runs.
+// The command line options of `fresco soak`, and the experiment that follows from them. Any thread may call
+// these functions.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -19,23 +20,23 @@ struct SoakOptions {
   std::optional<int> actors;
   uint64_t seed = 1;
   int first_round = 1;
-  int rounds = 0;  ///< 0: as many as the time is good for
+  int rounds = 0;  ///< the most rounds; 0: as many as fit into the time
   std::string out;
   std::string lcm_url;
-  KeyFile key_file;  ///< of every round
+  KeyFile key_file;  ///< for every round
   int memory_allowance_mib = 8;
   std::string format = "text";
 };
 
-/// The options of the command line. `options` must outlive the parsing.
+/// Adds the options to the command line; parsing writes their values to `options`.
 void AddSoakOptions(CLI::App& soak, SoakOptions& options);
 
-/// What a soak asks of a run, before --set: some seconds of training, nothing beside it, and checkpoints
-/// often enough that a killed learner has little to do again. Throws UsageError where there is no actor to
-/// kill.
+/// Returns the experiment of every run. Without --set, it trains for some seconds, does not search for the
+/// optimum, and takes checkpoints so often that a resumed learner repeats little. Throws UsageError if it has
+/// no local actor.
 Experiment SoakExperiment(const SoakOptions& options);
 
-/// The command that has the round again.
+/// Returns the command that repeats this round.
 std::string RepeatCommand(const SoakOptions& options, int round);
 
 }  // namespace fresco

@@ -12,7 +12,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// How the run recovered from the faults of one kind.
+/// How runs recovered from the faults of one kind.
 struct Recovery {
   int64_t faults = 0;
   int64_t recovered = 0;

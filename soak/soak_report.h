@@ -1,4 +1,5 @@
-// What a soak found: as a table, as JSON, and its faults one by one. Pure.
+// Makes the report of a soak: as text, as JSON, and as a table of its faults. Pure functions; any thread may
+// call them.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,9 @@ namespace fresco {
 
 struct SoakRoundReport {
   int number = 0;
-  std::string disturbance;  ///< of its messages, as --disturb takes it
+  std::string disturbance;  ///< disturbance of its messages, in the form of --disturb
   RoundResult result;
-  std::string repeat;  ///< the command that has this round again
+  std::string repeat;  ///< the command that repeats this round
 };
 
 struct SoakReport {
@@ -24,21 +25,21 @@ struct SoakReport {
   double wall_s = 0;
   RoundResult undisturbed;
   std::vector<SoakRoundReport> rounds;
-  std::vector<ProcessUse> after_rounds;  ///< of the soak's own process
-  std::vector<std::string> failures;     ///< not of one round
+  std::vector<ProcessUse> after_rounds;  ///< use of the soak's own process after each round
+  std::vector<std::string> failures;     ///< failures that do not belong to one round
   bool interrupted = false;
 
-  /// Whether at least one round was compared and nothing whatever was found.
+  /// Whether at least one round was compared and there was no failure.
   bool passed() const;
 };
 
-/// Tables for people, with what failed and how to have it again.
+/// Returns tables for people, with the failures and the commands that repeat their rounds.
 std::string SoakText(const SoakReport& report);
 
-/// One JSON object.
+/// Returns one JSON object.
 std::string SoakJson(const SoakReport& report);
 
-/// soak.csv: one row a fault.
+/// The header and the rows of soak.csv, one row for each fault.
 std::vector<std::string> FaultHeader();
 std::vector<std::vector<CsvCell>> FaultRows(const SoakReport& report);
 

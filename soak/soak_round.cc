@@ -37,10 +37,10 @@ class Round {
       if (run_ != nullptr) {
         EndProcesses();
       }
-    } catch (const Error& error) {  // a soak says what it found, also where a run can't go on
+    } catch (const Error& error) {  // becomes part of the soak's report
       Fail(error.what());
     }
-    run_.reset();  // where an error left it
+    run_.reset();  // it is still set after an error
     CloseBooks();
     return std::move(result_);
   }
@@ -96,7 +96,8 @@ class Round {
     last_progress_us_ = now_us;
   }
 
-  /// The learner has ended: because the run is complete, because it was killed, or for no good reason.
+  /// Called after the learner has ended. Ends the round if the run is complete, resumes it if the learner was
+  /// killed on purpose, and otherwise fails.
   void GoOnOrEnd() {
     const int status = EndProcesses();
     const bool killed = injector_ && injector_->TakeLearnerKill() && status == 128 + SIGKILL;
@@ -111,7 +112,7 @@ class Round {
     }
   }
 
-  /// As `train --resume` does after a `train` whose learner was killed.
+  /// Resumes the run, as `train --resume` does.
   void Resume() {
     ++result_.resumptions;
     constexpr uint64_t kProcessesPerResumption = 1000;
@@ -120,7 +121,7 @@ class Round {
     run_->Start();
   }
 
-  /// Returns the learner's exit status.
+  /// Ends the processes of the run and returns the learner's exit status.
   int EndProcesses() {
     if (injector_) {
       injector_->Continue(*run_);
@@ -163,7 +164,7 @@ class Round {
         options_.limit_s, last_status_ ? last_status_->episodes : 0,
         last_status_ ? last_status_->total_episodes : 0,
         kSecondsPerMicrosecond * static_cast<double>(MonotonicMicroseconds() - last_progress_us_),
-        last_status_ && !last_status_->waiting_for.empty() ? last_status_->waiting_for : "nothing it says"));
+        last_status_ && !last_status_->waiting_for.empty() ? last_status_->waiting_for : "nothing"));
   }
 
   void CloseBooks() {
@@ -185,14 +186,14 @@ class Round {
   const RoundOptions& options_;
   const RoundProgress& show_;
   BusOptions bus_;
-  std::optional<FaultInjector> injector_;  // outlives nothing of the run but its guests
+  std::optional<FaultInjector> injector_;  // declared before run_, so that it ends after it
   std::unique_ptr<TrainingRun> run_;
   std::optional<learner_status_t> last_status_;
   ProcessWatch watch_;
   RoundResult result_;
   int64_t begin_us_ = MonotonicMicroseconds();
   int64_t last_progress_us_ = begin_us_;
-  int64_t committed_ = 0;  // orders, the most that was reported
+  int64_t committed_ = 0;  // the most committed orders that the learner has reported
   uint64_t guests_ = 0;
   bool over_ = false;
 };

@@ -1,4 +1,5 @@
-// What happened to messages: for summary.json's `bus`, the status and checkpoints. Plain values.
+// Counts what happened to the learner's messages. The counters are in `bus` of summary.json, in the learner's
+// status and in checkpoints. Plain values; pure functions.
 #pragma once
 
 #include <cstdint>
@@ -8,27 +9,28 @@
 namespace fresco {
 
 struct BusCounters {
-  int64_t received = 0;                  ///< messages of this run
+  int64_t received = 0;                  ///< messages of this run that were received
   int64_t lost = 0;                      ///< orders whose result had to be asked for again
-  int64_t duplicate = 0;                 ///< transitions messages that brought nothing new
-  int64_t rejected = 0;                  ///< sum of the causes below
-  int64_t rejected_malformed = 0;        ///< does not decode, or values out of range
-  int64_t rejected_foreign = 0;          ///< another run, another configuration, an order never written
-  int64_t rejected_inconsistent = 0;     ///< an episode that does not follow from its actions
+  int64_t duplicate = 0;                 ///< messages of transitions that brought nothing new
+  int64_t rejected = 0;                  ///< sum of the five counters below
+  int64_t rejected_malformed = 0;        ///< messages that do not decode or have values out of range
+  int64_t rejected_foreign = 0;          ///< of another run or configuration, or of an order never written
+  int64_t rejected_inconsistent = 0;     ///< results whose episode does not follow from its actions
   int64_t rejected_arithmetic = 0;       ///< statuses of actors whose arithmetic differs
-  int64_t rejected_unauthenticated = 0;  ///< made with another key, or with none
-  int64_t reordered_episodes = 0;        ///< complete before an earlier one
-  int64_t stale_statuses = 0;            ///< of actors: not newer than the last one of the same actor
-  int64_t crowded_statuses = 0;          ///< of actors beyond Roster::kMaximumActors
-  int64_t weights_chunks_sent = 0;
-  int64_t weights_chunks_repeated = 0;  ///< of those sent: asked for again
+  int64_t rejected_unauthenticated = 0;  ///< messages made with another key, or with none
+  int64_t reordered_episodes = 0;        ///< episodes that were complete before an earlier one
+  int64_t stale_statuses = 0;            ///< statuses that are not newer than the actor's last one
+  int64_t crowded_statuses = 0;          ///< statuses of actors beyond Roster::kMaximumActors
+  int64_t weights_chunks_sent = 0;       ///< chunks of networks sent
+  int64_t weights_chunks_repeated = 0;   ///< those of them that were sent again because an actor asked
 };
 
-/// Every counter with its name, in the order above.
+/// A counter and its name.
 struct BusCounterField {
   const char* name;
   int64_t BusCounters::*value;
 };
+/// Every counter, in the order above.
 inline constexpr BusCounterField kBusCounterFields[] = {
     {"received", &BusCounters::received},
     {"lost", &BusCounters::lost},
@@ -54,7 +56,7 @@ inline std::map<std::string, int64_t> ToMap(const BusCounters& counters) {
   return map;
 }
 
-/// Names that are none are left out; what is not named is 0.
+/// Ignores names that are no counter's. Counters that the map does not name are 0.
 inline BusCounters FromMap(const std::map<std::string, int64_t>& map) {
   BusCounters counters;
   for (const BusCounterField& field : kBusCounterFields) {

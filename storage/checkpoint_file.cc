@@ -15,7 +15,7 @@ namespace {
 constexpr char kCheckpointFamily[] = "fresco-checkpoint-";
 constexpr char kCheckpointFormat[] = "fresco-checkpoint-2";
 
-/// The checkpoint in the file, whose CRC holds.
+/// Returns the checkpoint in the file after checking its format and CRC.
 proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {
   Expect(content.size() <= std::numeric_limits<int>::max(), origin,
          fmt::format("not a checkpoint of Fresco: {} bytes; allowed: 2 GB", content.size()));
@@ -28,9 +28,10 @@ proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {
          fmt::format("expected format {}, found {} of Fresco {}; use that release", kCheckpointFormat,
                      file.format(), file.software_version()));
   Expect(Crc32c(std::as_bytes(std::span(file.content()))) == file.crc32c(), origin,
-         "the checkpoint is damaged: its CRC does not hold");
+         "the checkpoint is damaged: its CRC is wrong");
   proto::Checkpoint checkpoint;
-  Expect(checkpoint.ParseFromString(file.content()), origin, "the checkpoint is damaged inside its CRC");
+  Expect(checkpoint.ParseFromString(file.content()), origin,
+         "the checkpoint is damaged, though its CRC is right");
   return checkpoint;
 }
 
@@ -53,8 +54,9 @@ std::string SerializeCheckpoint(const Checkpoint& checkpoint) {
   }
   constexpr size_t kLargest = (size_t{1} << 31) - (1 << 20);
   if (to.ByteSizeLong() > kLargest) {
-    throw Failure(fmt::format("a checkpoint of this run would have {} bytes; allowed: {} (Protobuf's limit)",
-                              to.ByteSizeLong(), kLargest));
+    throw Failure(
+        fmt::format("a checkpoint of this run is too large: {} bytes; allowed: {} (Protobuf's limit)",
+                    to.ByteSizeLong(), kLargest));
   }
   proto::CheckpointFile file;
   file.set_format(kCheckpointFormat);

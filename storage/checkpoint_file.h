@@ -1,5 +1,6 @@
-// A checkpoint on disk: a training's state with the run that it belongs to. Reading refuses torn,
-// foreign and newer files. Pure but for the experiment's defaults; thread-safe.
+// Converts checkpoints to the bytes of a file and back. A checkpoint is the state of a training together with
+// the run that it belongs to. Parsing refuses damaged and foreign files and those of a newer version. Pure
+// functions; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +15,31 @@ namespace fresco {
 
 struct Checkpoint {
   Experiment experiment;
-  uint32_t arithmetic_fingerprint = 0;
+  uint32_t arithmetic_fingerprint = 0;  ///< ArithmeticFingerprint() of the learner
   int64_t run_id = 0;
   TrainingState training = {};
-  // What a run is reported by; has no influence on the weights.
-  int resumptions = 0;
-  double wall_s = 0;                             ///< of the training so far
-  std::string metrics = {};                      ///< metrics.csv
-  std::map<std::string, int64_t> counters = {};  ///< of the bus, by name
+  // The remaining members are for reports. They have no influence on the weights.
+  int resumptions = 0;                           ///< how often the run was resumed before
+  double wall_s = 0;                             ///< wall time of the training so far, seconds
+  std::string metrics = {};                      ///< the text of metrics.csv so far
+  std::map<std::string, int64_t> counters = {};  ///< the bus counters so far, by name
 };
 
-/// What a checkpoint takes of memory while it is written, at most: the state that was copied, the same as
-/// Protobuf's message, its content, and the file. `parameters` of a network, `versions` of networks in
-/// flight, `actions` of the replay memory.
+/// The most memory that a checkpoint takes while it is written, bytes: the copied state, the same as
+/// Protobuf's message, its serialized content, and the file. `parameters` is the number of values of a
+/// network, `versions` the number of network versions in the checkpoint, `actions` the number of actions of
+/// the replay memory.
 int64_t CheckpointBytes(int64_t parameters, int64_t versions, int64_t actions);
 
-/// The bytes of a file, with a CRC-32C. Throws Failure where they exceed 2 GB, Protobuf's limit.
+/// Returns the bytes of a checkpoint file. Throws Failure if they exceed 2 GB, Protobuf's limit.
 std::string SerializeCheckpoint(const Checkpoint& checkpoint);
 
-/// Whether these bytes say that they are a checkpoint, whole or not.
+/// Whether the bytes begin like a checkpoint file. They may still be damaged or incomplete.
 bool LooksLikeCheckpoint(std::string_view content);
 
-/// Throws UsageError naming `origin` (the file) and what is wrong: not a checkpoint, cut short, damaged,
-/// made by a newer Fresco, sizes that contradict its configuration. Whether the state makes sense beyond
-/// its sizes is seen by Trainer::Resume.
+/// Parses the bytes of a checkpoint file. Throws UsageError that names `origin` (the file) and what is wrong:
+/// it is not a checkpoint, is cut short or damaged, was made by a newer Fresco, or has sizes that contradict
+/// its configuration. Only sizes are checked here; Trainer::Resume checks the rest of the state.
 Checkpoint ParseCheckpoint(std::string_view content, const std::string& origin);
 
 }  // namespace fresco

@@ -31,10 +31,10 @@ void SetAside(const std::vector<UnusableCheckpoint>& checkpoints) {
     std::filesystem::rename(path, aside, error);
     if (error) {
       throw Failure(
-          fmt::format("can't rename {} to {}: {}; it has to make room for the checkpoints to come, remove it",
+          fmt::format("can't rename {} to {}: {}; remove it, since later checkpoints need its place",
                       path.string(), aside.filename().string(), error.message()));
     }
-    spdlog::warn("{}; renamed to {}, going on from the checkpoint before", problem,
+    spdlog::warn("{}; renamed it to {}, continuing from an earlier checkpoint", problem,
                  aside.filename().string());
   }
 }
@@ -53,7 +53,7 @@ void CheckpointFolder::Make() const {
 
 std::vector<std::filesystem::path> CheckpointFolder::Latest() const {
   std::vector<std::filesystem::path> paths;
-  std::error_code error;  // no folder: no checkpoint
+  std::error_code error;  // ignored: without a folder there are no checkpoints
   for (const auto& entry : std::filesystem::directory_iterator(directory_, error)) {
     if (IsCheckpointName(entry.path())) {
       paths.push_back(entry.path());
@@ -66,7 +66,7 @@ std::vector<std::filesystem::path> CheckpointFolder::Latest() const {
 void CheckpointFolder::Prune(int kept) const {
   const std::vector<std::filesystem::path> paths = Latest();
   for (size_t i = static_cast<size_t>(kept); i < paths.size(); ++i) {
-    std::error_code error;  // one too many does no harm
+    std::error_code error;  // ignored: a checkpoint too many does no harm
     std::filesystem::remove(paths[i], error);
   }
 }

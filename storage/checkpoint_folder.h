@@ -1,6 +1,6 @@
-// The checkpoints of a run's folder: DIR/checkpoints/ORDERS.checkpoint (twelve digits), the last few kept.
-// Writing is the file writer's work; reading takes the latest usable one. Files of other names are none of
-// its business.
+// Manages the checkpoint files of a run's folder: DIR/checkpoints/ORDERS.checkpoint, where ORDERS is the
+// number of committed orders in twelve digits. Finds the latest usable one and deletes old ones; FileWriter
+// writes them. Ignores files with other names. Different threads may use different objects.
 #pragma once
 
 #include <cstdint>
@@ -14,45 +14,46 @@
 
 namespace fresco {
 
-/// A checkpoint that a run can't go on from, and why.
+/// A checkpoint from which a run can't continue, and why.
 struct UnusableCheckpoint {
   std::filesystem::path path;
   std::string problem;
 };
 
-/// Renames them to NAME.unusable (in place of older ones of that name), so that they count as none of those
-/// that CheckpointFolder::Prune keeps, and says so in the log. The caller holds the folder's lock. Throws
-/// Failure if one can't be renamed.
+/// Renames each of these files to NAME.unusable, replacing older files of that name, and says so in the log.
+/// So CheckpointFolder::Prune does not count them among those that it keeps. The caller holds the folder's
+/// lock. Throws Failure if a file can't be renamed.
 void SetAside(const std::vector<UnusableCheckpoint>& checkpoints);
 
 class CheckpointFolder {
  public:
-  /// Of the run's folder `run`, which need not have any.
+  /// `run` is the run's folder. It need not have checkpoints.
   explicit CheckpointFolder(const std::filesystem::path& run) : directory_(run / "checkpoints") {}
 
-  /// Where the checkpoint of this moment belongs.
+  /// The path of the checkpoint that is taken after so many committed orders.
   std::filesystem::path PathFor(int64_t committed_orders) const;
 
-  /// Throws Failure where the folder can't be made.
+  /// Makes the folder DIR/checkpoints. Throws Failure if it can't.
   void Make() const;
 
-  /// Deletes all but the latest `kept`.
+  /// Deletes all checkpoints except the latest `kept` (>= 1).
   void Prune(int kept) const;
 
-  /// Every checkpoint, latest first.
+  /// Returns the paths of all checkpoints, latest first.
   std::vector<std::filesystem::path> Latest() const;
 
-  /// Throws UsageError with the reason where a whole checkpoint, read from the file, can't be used.
+  /// A function that throws UsageError with the reason if a checkpoint that was read from this path can't be
+  /// used.
   using Check = std::function<void(const Checkpoint&, const std::filesystem::path&)>;
 
-  /// What a run can go on from.
+  /// The checkpoint from which a run can continue.
   struct Found {
-    std::optional<Checkpoint> checkpoint = {};      ///< none: there is no checkpoint at all
-    std::vector<UnusableCheckpoint> unusable = {};  ///< those that are later than this one
+    std::optional<Checkpoint> checkpoint = {};      ///< none: the folder has no checkpoint at all
+    std::vector<UnusableCheckpoint> unusable = {};  ///< later checkpoints, which can't be used
   };
 
   /// Finds the latest checkpoint that can be read, is whole and passes the check. Throws UsageError if there
-  /// are some and none is usable. Changes nothing. The caller holds the folder's lock.
+  /// are checkpoints, but none can be used. Changes nothing. The caller holds the folder's lock.
   Found FindLatest(const Check& check) const;
 
  private:

@@ -77,8 +77,8 @@ void FileWriter::Work() {
   }
 }
 
-/// The first file that was not tried yet; otherwise, after a pause, the one that was tried the longest
-/// ago. None where the writer ends.
+/// Returns the first file that was not tried yet; if there is none, pauses and returns the file that was
+/// tried longest ago. Returns the end if the writer ends.
 std::deque<FileWriter::Job>::iterator FileWriter::NextJob(std::unique_lock<std::mutex>& lock) {
   changed_.wait_for(lock, std::chrono::microseconds(try_again_us_),
                     [&] { return ending_ || attempts_ < hurry_until_ || HasFreshJob(); });
@@ -100,9 +100,9 @@ void FileWriter::WriteOne(Job job, std::unique_lock<std::mutex>& lock) {
     problem = error.what();
   }
   if (!problem.empty() && problem != job.problem) {
-    spdlog::warn("{}; it is tried again", problem);
+    spdlog::warn("{}; will try again", problem);
   } else if (problem.empty() && !job.problem.empty()) {
-    spdlog::info("{} could be written now", job.file.path.string());
+    spdlog::info("{} is written now", job.file.path.string());
   }
   lock.lock();
   if (!problem.empty() && !Waits(job.file.name)) {

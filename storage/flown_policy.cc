@@ -14,8 +14,8 @@ Experiment GivenExperiment(const PolicyChoice& choice) {
                           ParseSettings(choice.settings));
 }
 
-/// The scenario comes from --config; the network's shape and masks from the network's own
-/// configuration, which --config replaces where it is given.
+/// Returns the experiment to fly in: that of --config if it is given, otherwise that of the network. Throws
+/// UsageError if the network does not fit it.
 Experiment ExperimentOfNetwork(const PolicyChoice& choice, const StoredNetwork& network) {
   if (choice.config.empty()) {
     return Experiment::Parse(network.experiment.Text(), choice.policy, ParseSettings(choice.settings));
@@ -32,16 +32,16 @@ Experiment ExperimentOfNetwork(const PolicyChoice& choice, const StoredNetwork& 
 
 void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
   app.add_option("--config", choice.config,
-                 ConfigHelp(std::string("that of the trained policy, or ") + kDefaultExperiment));
+                 ConfigHelp(std::string("the one of the trained policy, or ") + kDefaultExperiment));
   app.add_option("--set", choice.settings, "Override one field: path=value; may be repeated");
   app.add_option("--policy", choice.policy, kPolicyKinds)->required();
   app.add_option("--time-limit-s", choice.limits.seconds,
-                 "optimal: end the search after so many seconds with what is proved; default: none")
+                 "For the policy optimal: stop the search after so many seconds; default: no limit")
       ->check(CLI::Range(0.001, 1e6));
   app.add_option_function<int64_t>(
          "--memory-limit-mb",
          [&choice](int64_t megabytes) { choice.limits.memory_bytes = megabytes * 1'000'000; },
-         "optimal: memory of the search; default: 2684")
+         "For the policy optimal: memory that the search may take; default: 2684")
       ->check(CLI::Range(1, 1'000'000));
 }
 

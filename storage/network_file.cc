@@ -25,7 +25,7 @@ Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const
   Expect(file.parameters().size() == expected, origin,
          fmt::format("expected {} bytes of parameters, found {}", expected, file.parameters().size()));
   Expect(Crc32c(std::as_bytes(std::span(file.parameters()))) == file.crc32c(), origin,
-         "the CRC of its parameters does not hold: the file is damaged");
+         "the CRC of its parameters is wrong: the file is damaged");
   Vector parameters(shape.parameter_count());
   std::memcpy(parameters.data(), file.parameters().data(), expected);
   return parameters;

@@ -1,4 +1,5 @@
-// A network on disk: the policy that a run delivers. Reading refuses torn, foreign and newer files.
+// Writes and reads network files, the policies that a run produces (best.network, final.network). Reading
+// refuses damaged and foreign files and those of a newer version. Any thread may call these functions.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +12,24 @@
 
 namespace fresco {
 
-/// A version of the current network with the experiment that it was trained for.
+/// A version of the current network and the experiment that it was trained for.
 struct StoredNetwork {
   Experiment experiment;
-  int64_t version = 0;
-  int64_t updates = 0;
-  Vector parameters;
+  int64_t version = 0;  ///< its number
+  int64_t updates = 0;  ///< updates made when the version was made
+  Vector parameters;    ///< as many as experiment.network_shape() has
 };
 
-/// The bytes of a network's file.
+/// Returns the bytes of a network file.
 std::string SerializeNetworkFile(const StoredNetwork& network);
 
-/// Written atomically; throws Failure where the disk does not take it.
+/// Writes a network file atomically. Throws Failure if it can't be written.
 void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network);
 
-/// Throws UsageError naming `origin` (the file) and what is wrong: not a network file, truncated, a CRC
-/// that does not hold, sizes that contradict the configuration.
+/// Parses the bytes of a network file. Throws UsageError that names `origin` (the file) and what is wrong: it
+/// is not a network file, is cut short, has a wrong CRC, or has sizes that contradict its configuration.
 StoredNetwork ParseNetworkFile(std::string_view content, const std::string& origin);
+/// Does the same with the content of a file. Also throws UsageError if the file can't be read.
 StoredNetwork ReadNetworkFile(const std::filesystem::path& path);
 
 }  // namespace fresco

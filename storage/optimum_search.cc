@@ -42,7 +42,7 @@ OptimumSearch::~OptimumSearch() {
   Stop();
 }
 
-/// Of the calling thread only: what trains and what talks goes first.
+/// Lowers the priority of the calling thread, so that the training and the network threads go first.
 void OptimumSearch::TakeLowPriority() {
   constexpr int kLeastUrgent = 19;
   const std::lock_guard lock(mutex_);
@@ -55,7 +55,7 @@ void OptimumSearch::TakeLowPriority() {
 void OptimumSearch::TakeFullPriority() {
   const std::lock_guard lock(mutex_);
   hurried_ = true;
-  if (thread_id_ != 0 && !ended_) {  // a thread that has ended leaves its number to others
+  if (thread_id_ != 0 && !ended_) {  // after a thread has ended, another one may have its id
     setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id_), full_priority_);
   }
 }
@@ -68,7 +68,7 @@ void OptimumSearch::Search() {
     options.memory_bytes = limits_.memory_bytes;
     options.keep_going = [this](const PlannerProgress& progress) { return KeepGoing(progress); };
     plan = std::make_shared<const Plan>(PlanOptimally(*world_, options));
-  } catch (const std::exception& error) {  // out of memory, say: the training goes on without
+  } catch (const std::exception& error) {  // e.g. out of memory; the training continues without the optimum
     spdlog::error("the search for the exact optimum failed: {}", error.what());
   }
   const std::lock_guard lock(mutex_);

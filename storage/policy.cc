@@ -24,7 +24,7 @@ constexpr char kBestNetwork[] = "best.network";
 
 std::string Describe(const World& world, const PlannerProgress& progress, double passed_s) {
   return fmt::format(
-      "searching for {:.0f} s | slot {} of {} | {} labels of {} at most | average AoI between {:.4f} and "
+      "searching for {:.0f} s | slot {} of {} | {} labels of at most {} | average AoI between {:.4f} and "
       "{:.4f}",
       passed_s, progress.slot, world.scenario().slots, progress.labels, progress.width,
       progress.lower_bound_average, progress.best_average);
@@ -34,12 +34,12 @@ std::string Describe(const World& world, const PlannerProgress& progress, double
   throw UsageError(fmt::format("--policy: expected {}; {}", kPolicyKinds, problem));
 }
 
-/// The file of the network or checkpoint.
+/// Returns the path of the network file or checkpoint that the policy names.
 std::filesystem::path PolicyFile(const std::string& policy) {
   const std::filesystem::path path(policy);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    RefusePolicy(fmt::format("\"{}\" is none of them, and no such file is there{}", policy,
+    RefusePolicy(fmt::format("\"{}\" is none of these, and there is no such file{}", policy,
                              DidYouMean(policy, {kAoiPolicy, kDistancePolicy, kOptimalPolicy})));
   }
   if (!std::filesystem::is_directory(path, error)) {
@@ -52,7 +52,7 @@ std::filesystem::path PolicyFile(const std::string& policy) {
   return path / kBestNetwork;
 }
 
-/// The network of a file, or the best one of a checkpoint.
+/// Returns the network of a network file, or the best one of a checkpoint.
 StoredNetwork ReadPolicyFile(const std::filesystem::path& path) {
   const std::string content = ReadFile(path);
   if (!LooksLikeCheckpoint(content)) {
@@ -61,7 +61,8 @@ StoredNetwork ReadPolicyFile(const std::filesystem::path& path) {
   const Checkpoint checkpoint = ParseCheckpoint(content, path.string());
   const std::optional<BestNetwork>& best = checkpoint.training.best;
   if (!best) {
-    throw UsageError(fmt::format("nothing was evaluated before the checkpoint {}", path.string()));
+    throw UsageError(fmt::format(
+        "the checkpoint {} has no network yet: it was taken before the first evaluation", path.string()));
   }
   return {checkpoint.experiment, best->evaluation.version, best->evaluation.updates, *best->parameters};
 }
@@ -93,7 +94,7 @@ Flight FlyNetwork(const World& world, const Experiment& experiment, const Stored
 }
 
 Plan PlanWithin(const World& world, const PlannerLimits& limits) {
-  constexpr double kSilentS = 1;  // most searches are over by then
+  constexpr double kSilentS = 1;  // show no progress before; most searches end earlier
   const int64_t begin_us = MonotonicMicroseconds();
   LiveLine line(limits.show_progress);
   PlannerOptions options;

@@ -21,15 +21,16 @@ void RefuseCompleteRun(const std::filesystem::path& folder) {
 void CheckOrigin(const Checkpoint& checkpoint, const Experiment& experiment, const std::string& path) {
   if (checkpoint.experiment.hash() != experiment.hash()) {
     throw UsageError(
-        fmt::format("--resume: {} is of configuration {:08x}, expected {:08x} (config.textproto and --set); "
+        fmt::format("--resume: {} has configuration {:08x}, expected {:08x} (config.textproto and --set); "
                     "only fields of run may change when a run is resumed",
                     path, checkpoint.experiment.hash(), experiment.hash()));
   }
   if (checkpoint.arithmetic_fingerprint != ArithmeticFingerprint()) {
-    throw UsageError(fmt::format(
-        "--resume: {} was made with arithmetic {:08x}, this program's is {:08x}: the weights would differ in "
-        "their bits; resume with the same build on the same kind of processor",
-        path, checkpoint.arithmetic_fingerprint, ArithmeticFingerprint()));
+    throw UsageError(
+        fmt::format("--resume: {} was made with arithmetic {:08x}, but this program's is {:08x}, so the "
+                    "weights would have "
+                    "other bits; resume with the same build on the same kind of processor",
+                    path, checkpoint.arithmetic_fingerprint, ArithmeticFingerprint()));
   }
 }
 

@@ -51,13 +51,13 @@ void RunFolder::RefuseResults(const std::filesystem::path& directory) {
   }
   if (!CheckpointFolder(directory).Latest().empty()) {
     throw UsageError(
-        fmt::format("--out: {} holds a run that did not end; go on with it (--resume {}) or "
+        fmt::format("--out: {} holds a run that is not complete; continue it (--resume {}) or "
                     "name a new folder",
                     directory.string(), directory.string()));
   }
 }
 
-/// The summary of an interrupted run, and temporary files of a process that was killed.
+/// Deletes the summary of an interrupted run, and temporary files of a process that was killed.
 void RunFolder::ClearLeftovers() const {
   std::filesystem::remove(directory_ / "summary.json");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory_)) {
@@ -111,7 +111,7 @@ void RunFolder::WriteOptimum(const std::string& json) {
 std::string NewestRunHint(const std::filesystem::path& folder, const std::string& file) {
   std::filesystem::path newest;
   std::filesystem::file_time_type newest_time;
-  std::error_code error;  // what can't be looked at is no run
+  std::error_code error;  // ignored: a folder that can't be read is no run
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const auto time = std::filesystem::last_write_time(entry.path() / file, error);
     if (!error && (newest.empty() || time > newest_time)) {

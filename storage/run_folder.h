@@ -1,7 +1,8 @@
-// A run's folder: config.textproto, metrics.csv, best.network, final.network, optimum.json, summary.json
-// and checkpoints/. Every file is whole at any time. What changes during the training is written by a
-// thread of its own; a full disk does not stop the training. Used by one thread; one process at a time
-// works in a folder, which is for the callers to see to (core/folder_lock.h).
+// Writes the files of a run's folder: config.textproto, metrics.csv, best.network, final.network,
+// optimum.json, summary.json and checkpoints/. Every file is complete at all times. A thread of its own
+// (FileWriter) writes the files that change during the training, so a full disk does not stop the training.
+// LearnerProcess owns one; only its training thread may use it. Only one process at a time may work in a
+// folder; callers make sure of that (core/folder_lock.h).
 #pragma once
 
 #include <filesystem>
@@ -16,38 +17,39 @@ namespace fresco {
 
 class RunFolder {
  public:
+  /// Whether the folder is for a new run or holds a run to resume.
   enum class Use { kNewRun, kResume };
 
-  /// Checks, without making or changing anything, that a new run can have this folder: it can be made or
-  /// written to, no process works in it, and it holds no other run. Throws UsageError otherwise.
+  /// Checks that a new run can use this folder: it can be made or written to, no process works in it, and it
+  /// holds no other run. Throws UsageError otherwise. Makes and changes nothing.
   static void CheckNew(const std::filesystem::path& directory);
 
-  /// Makes a folder, and those above it. Throws UsageError where it can't.
+  /// Makes a folder and those above it. Throws UsageError if it can't.
   static void Make(const std::filesystem::path& directory);
 
-  /// Makes the folder and writes the configuration. Throws UsageError where the folder can't be made or
-  /// (kNewRun) holds another run. kResume: takes over what an incomplete run has left, and clears its
-  /// half-written files away.
+  /// Makes the folder and writes the configuration. kNewRun: throws UsageError if the folder holds another
+  /// run. kResume: keeps the files of the incomplete run and deletes its half-written ones. Throws UsageError
+  /// if the folder can't be made.
   RunFolder(std::filesystem::path directory, const Experiment& experiment, Use use = Use::kNewRun);
 
   const std::filesystem::path& directory() const { return directory_; }
 
-  // ---- During the training; these return at once.
-  /// Adds an evaluation and what it stands beside to metrics.csv.
+  // ---- For use during the training. These functions return at once.
+  /// Adds a line to metrics.csv.
   void AddMetrics(const Evaluation& evaluation, const TrainerProgress& progress, double wall_s);
   void WriteBest(const BestNetwork& best);
   void WriteCheckpoint(std::shared_ptr<const Checkpoint> checkpoint);
-  /// Whether the checkpoint before is still being written.
+  /// Whether the last checkpoint waits or is being written.
   bool CheckpointIsBusy() const { return writer_.IsBusy(kCheckpoint); }
-  /// What can't be written now; empty: nothing.
+  /// Which file can't be written at present, and why; empty if there is none.
   std::string problem() const { return writer_.problem(); }
 
-  /// The text of metrics.csv so far, and to go on from.
+  /// The text of metrics.csv so far. RestoreMetrics sets it when a run is resumed.
   const std::string& metrics() const { return metrics_; }
   void RestoreMetrics(std::string metrics) { metrics_ = std::move(metrics); }
 
-  // ---- At the end; these throw Failure where the disk does not take it.
-  /// Waits until everything of the above is written.
+  // ---- For use at the end. These functions throw Failure if a file can't be written.
+  /// Waits until all files from above are written.
   void Finish() { writer_.Finish(); }
   void WriteFinal(const Vector& parameters, const TrainerProgress& progress);
   void WriteSummary(const std::string& json);
@@ -66,8 +68,9 @@ class RunFolder {
   FileWriter writer_;
 };
 
-/// For an error's text, if `folder` is not the folder of a run but holds such folders: "; the newest run in
-/// it is runs/NAME", that with the newest `file`. "" if no folder in it has that file.
+/// A hint for the error that `folder` is not the folder of a run. If it contains folders of runs, returns ";
+/// the newest run in it is runs/NAME", which is the one with the newest `file`. Returns "" if no folder in it
+/// has that file.
 std::string NewestRunHint(const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace fresco

@@ -1,4 +1,4 @@
-// summary.json: what a run was and what came out of it.
+// Makes summary.json and optimum.json, the results of a run. Pure functions; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace fresco {
 
-/// The checkpoints that this process took, and for how long the training stood still for one at most.
+/// The number of checkpoints that this process took, and the longest pause of the training for one of them.
 struct CheckpointFigures {
   int64_t taken = 0;
   int64_t longest_pause_us = 0;
@@ -29,23 +29,27 @@ struct SummaryInputs {
   const Trainer& trainer;
   BusCounters counters;
   OptimumResult optimum = {};
-  int resumptions = 0;  ///< how often the run was gone on with
+  int resumptions = 0;  ///< how often the run was resumed
   CheckpointFigures checkpoints = {};
 };
 
-/// One JSON object. The policy's figures are those of the best evaluated version; `arrived` and the
-/// AoI figures are null before the first evaluation. `optimum_search` says how the search ended
-/// (SearchEndName). `optimal_…` are null unless the optimum is proved, and so is `gap_percent`, that of
-/// average_aoi above the optimum; it is also null if the policy does not arrive. `best_found_…` are those of
-/// the best flight that the search found, which is the optimum if that is proved. No flight has an average
-/// AoI below `lower_bound_average_aoi`. Both are null without a result of the search.
+/// Returns the JSON object of summary.json.
+///  - `arrived`, `total_aoi`, `average_aoi` and `sum_aoi` are those of the best evaluated version; null
+///    before the first evaluation.
+///  - `optimum_search` says how the search ended (SearchEndName).
+///  - `optimal_...` are the figures of the exact optimum; null if it is not proved.
+///  - `gap_percent` says how far average_aoi is above the optimum; null if that is not proved or the policy
+///    does not arrive.
+///  - `best_found_...` are the figures of the best flight that the search found, which may be the optimum. No
+///    flight has an average AoI below `lower_bound_average_aoi`. Both are null if the search has no result.
 std::string SummaryJson(const SummaryInputs& inputs);
 
-/// Whether nothing of a run is left to do, by its summary's JSON: it is trained, and its search for the
-/// optimum was not stopped. False for what is no summary.
+/// Whether a run with this summary is finished: its training is complete, and its search for the optimum was
+/// not stopped. Returns false if the text is not a summary.
 bool IsFinished(const std::string& summary_json);
 
-/// optimum.json: the best flight of the search, as indices of actions, and what is proved of it.
+/// Returns the JSON object of optimum.json: the best flight that the search found, as indices of actions, and
+/// what is proved about it.
 std::string OptimumJson(const World& world, const Plan& plan);
 
 }  // namespace fresco

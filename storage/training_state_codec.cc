@@ -71,7 +71,7 @@ OrderInFlight FromProto(const proto::CheckpointOrder& from) {
           from.updates_at_writing()};
 }
 
-/// Reads the vectors of one file, all of the same size.
+/// Reads the vectors of one checkpoint, which all have the same size.
 class VectorReader {
  public:
   VectorReader(int64_t parameters, std::string origin)

@@ -1,4 +1,5 @@
-// A training's state to a checkpoint's message and back. Pure; thread-safe.
+// Converts the state of a training to the message Checkpoint (msgs/proto/checkpoint.proto) and back. Pure
+// functions; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +10,11 @@
 
 namespace fresco {
 
+/// Sets the fields of `to` that hold the state.
 void WriteTrainingState(const TrainingState& from, proto::Checkpoint& to);
 
-/// Of networks with `parameters` values. Throws UsageError naming `origin` and the field where a size or an
-/// action is wrong.
+/// Reads the state of a training whose networks have `parameters` values. Throws UsageError that names
+/// `origin` and the field if a size or an action is wrong.
 TrainingState ReadTrainingState(const proto::Checkpoint& from, int64_t parameters, const std::string& origin);
 
 }  // namespace fresco

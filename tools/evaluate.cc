@@ -32,8 +32,9 @@ void PrintProof(const Plan& plan) {
     fmt::print("This is the exact optimum: no flight has a smaller average AoI.\n");
   } else {
     const double average_aoi = plan.lower_bound_average_aoi;
-    fmt::print("The search was ended early: no flight has an average AoI below {:.3f} (total AoI {:.1f}).\n",
-               average_aoi, plan.lower_bound_total_aoi);
+    fmt::print(
+        "The search was stopped early: no flight has an average AoI below {:.3f} (total AoI {:.1f}).\n",
+        average_aoi, plan.lower_bound_total_aoi);
   }
 }
 

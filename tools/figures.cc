@@ -1,4 +1,5 @@
-// `fresco figures`: the paper's figures, with the exact optimum beside every point, and more.
+// The subcommand `fresco figures`: draws the paper's figures, with the exact optimum beside every point, and
+// more.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,8 +45,8 @@ StudyScope ScopeOf(const FiguresOptions& options) {
   return scope;
 }
 
-/// One actor a run (it outruns the learner by far), and the search for the optimum to its end, unless the
-/// options limit it.
+/// The experiment that all runs of the study derive from. Each run has one actor, which is much faster than
+/// the learner. The search for the optimum may take an hour, unless the options say otherwise.
 Experiment BaseExperiment(const FiguresOptions& options) {
   Settings settings = {{"run.optimum_limit_s", "3600"}};
   const Settings given = ParseSettings(options.settings);
@@ -76,10 +77,11 @@ int WriteFigures(const FiguresOptions& options) {
   const std::vector<StudyResult> results =
       RunStudy(study.jobs, {folder / "runs", options.parallel, options.bus});
   const WrittenFigures written = WriteStudyFigures(folder, base, study, results);
-  fmt::print("mean gap of DQN to the optimum over both figures' points: {}\n", MeanGapText(written));
+  fmt::print("mean gap between DQN and the optimum over the points of the paper's two figures: {}\n",
+             MeanGapText(written));
   if (!written.picture_error.empty()) {
     throw Failure("the numbers are in " + folder.string() +
-                  ", but not every picture: " + written.picture_error);
+                  ", but some pictures could not be drawn: " + written.picture_error);
   }
   fmt::print("figures, tables and report.html are in {}\n", folder.string());
   return 0;
@@ -91,14 +93,16 @@ void AddFigures(CLI::App& app, Command& command) {
   auto options = std::make_shared<FiguresOptions>();
   CLI::App* figures = app.add_subcommand(
       "figures", "Reproduce the paper's figures with the exact optimum beside every point: CSV, SVG, PNG");
-  figures->add_option("--out", options->out, "Folder for figures and runs; goes on where it was stopped")
+  figures
+      ->add_option("--out", options->out,
+                   "Folder for figures and runs; a study that was stopped there continues")
       ->required();
   figures->add_option("--config", options->config,
                       ConfigHelp(std::string(kDefaultExperiment) + "; with --quick: ci"));
   figures->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
-  figures->add_option("--deployments", options->deployments, "Random deployments a point; default: 3")
+  figures->add_option("--deployments", options->deployments, "Random deployments for each point; default: 3")
       ->check(CLI::Range(1, 1000));
-  figures->add_option("--parallel", options->parallel, "Runs side by side; default: as many as processors")
+  figures->add_option("--parallel", options->parallel, "Runs side by side; default: one for each processor")
       ->check(CLI::Range(1, 256));
   figures->add_option("--lcm-url", options->lcm_url, "Where learners and actors meet");
   AddBusOptions(*figures, options->bus);

@@ -32,8 +32,8 @@ struct FlyOptions {
   BusOptions bus;
 };
 
-/// Publishes a flight slot by slot. Its clock stands still while the process is stopped, so that it goes on
-/// at the same pace afterwards.
+/// Publishes a flight slot by slot. Its clock stops while the process is stopped, so it continues at the same
+/// pace afterwards.
 class FlightShow {
  public:
   FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
@@ -45,7 +45,7 @@ class FlightShow {
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
         period_us_(1e6 / options.slots_per_s) {}
 
-  /// Shows the flight once; false where the program was asked to stop before its end.
+  /// Publishes the flight once. Returns false if the program was asked to stop before the end of the flight.
   bool Show() {
     const int64_t begin_us = clock_.Look(MonotonicMicroseconds());
     SendField();
@@ -63,10 +63,11 @@ class FlightShow {
   }
 
  private:
-  static constexpr int64_t kLastSlotUs = 1'000'000;  // is to be seen before the next flight begins
+  // How long the last slot is shown before the next flight begins.
+  static constexpr int64_t kLastSlotUs = 1'000'000;
   static constexpr int64_t kLongestPollUs = 20'000;
 
-  /// False where the program was asked to stop.
+  /// Returns false if the program was asked to stop.
   bool WaitUntil(int64_t due_us) {
     while (!StopSignal::Requested()) {
       const int64_t now_us = clock_.Look(MonotonicMicroseconds());
@@ -119,12 +120,13 @@ class FlightShow {
   bool failure_was_told_ = false;
 };
 
-/// A show without end is over when somebody ends it.
+/// Returns the exit status: 0 if the flight was published completely. With --loop it never is, so any end is
+/// 0.
 int FlyOverBus(const FlyOptions& options) {
   const ChosenPolicy chosen = ReadChoice(options.choice);
   const std::string url = options.lcm_url.empty() ? chosen.experiment.run().lcm_url() : options.lcm_url;
   std::unique_ptr<Bus> bus =
-      OpenBus(url, options.bus);  // before the optimum is searched for, which may take long
+      OpenBus(url, options.bus);  // before the search for the optimum, which may take long
   const FlownPolicy flown = FlyPolicy(options.choice, chosen);
   if (StopSignal::Requested()) {
     return 1;
@@ -145,13 +147,15 @@ int FlyOverBus(const FlyOptions& options) {
 
 void AddFly(CLI::App& app, Command& command) {
   auto options = std::make_shared<FlyOptions>();
-  CLI::App* fly = app.add_subcommand("fly", "Fly one episode greedily over LCM, slot by slot, to be watched");
+  CLI::App* fly =
+      app.add_subcommand("fly", "Fly one episode greedily and publish it slot by slot over LCM, for viewers");
   AddPolicyOptions(*fly, options->choice);
   fly->add_option("--rate", options->slots_per_s, "Slots a second")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1000.0));
   fly->add_flag("--loop", options->loop, "Fly it again and again, until Ctrl-C");
-  fly->add_option("--lcm-url", options->lcm_url, "Where it is flown; default: the experiment's run.lcm_url");
+  fly->add_option("--lcm-url", options->lcm_url,
+                  "LCM URL to publish on; default: the experiment's run.lcm_url");
   AddBusOptions(*fly, options->bus);
   options->choice.limits.show_progress = true;
   fly->callback([options, &command] { command = [options] { return FlyOverBus(*options); }; });

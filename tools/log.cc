@@ -3,7 +3,7 @@
 namespace fresco {
 
 void AddLog(CLI::App& app, Command& command) {
-  CLI::App* log = app.add_subcommand("log", "Record, look into, cut, export and play logs of the traffic");
+  CLI::App* log = app.add_subcommand("log", "Record, inspect, cut, export and play logs of the traffic");
   log->require_subcommand(1);
   AddLogRecord(*log, command);
   AddLogInfo(*log, command);

@@ -27,7 +27,7 @@ int Cat(const EventInputOptions& options) {
 
 void AddLogCat(CLI::App& log, Command& command) {
   auto options = std::make_shared<EventInputOptions>();
-  CLI::App* cat = log.add_subcommand("cat", "Print events, decoded, as a line of JSON each");
+  CLI::App* cat = log.add_subcommand("cat", "Print each event, decoded, as a line of JSON");
   AddEventInput(*cat, *options);
   cat->callback([options, &command] { command = [options] { return Cat(*options); }; });
 }

@@ -1,4 +1,5 @@
-// The subcommands of `fresco log`, in the order of its help; as in tools/subcommands.h.
+// The subcommands of `fresco log`, in the order of `fresco log --help`. They work like those in
+// tools/subcommands.h.
 #pragma once
 
 #include "tools/subcommands.h"

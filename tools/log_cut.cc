@@ -16,7 +16,7 @@ struct CutOptions {
 };
 
 int Cut(const CutOptions& options) {
-  EventInput input(options.input);  // before the new log is made
+  EventInput input(options.input);  // checks the options before the new log is made
   EventLogWriter writer(options.out, static_cast<int64_t>(1e6 * options.split_mb));
   input.ForEach([&](const LcmEvent& event) { writer.Write(event); });
   writer.Flush();
@@ -32,7 +32,8 @@ void AddLogCut(CLI::App& log, Command& command) {
   CLI::App* cut = log.add_subcommand("cut", "Copy some of the events to a new log: by time, channel or run");
   AddEventInput(*cut, options->input);
   cut->add_option("--out", options->out, "The new log; never written over")->required();
-  cut->add_option("--split-mb", options->split_mb, "In files of so many megabytes: OUT.00, OUT.01, ..")
+  cut->add_option("--split-mb", options->split_mb,
+                  "Split into files of so many megabytes: OUT.00, OUT.01, ..")
       ->check(CLI::Range(0.001, 1e9));
   cut->callback([options, &command] { command = [options] { return Cut(*options); }; });
 }

@@ -55,7 +55,7 @@ class Exporter {
 };
 
 int Export(const ExportOptions& options) {
-  EventInput input(options.input);  // before the table is written over
+  EventInput input(options.input);  // checks the options before the table is overwritten
   TextOutput output(options.out);
   RowWriter writer(output, options.format == "csv" ? RowWriter::Format::kCsv : RowWriter::Format::kJsonLines);
   Exporter exporter(options.what, writer);

@@ -28,8 +28,7 @@ int Info(const InfoOptions& options) {
 
 void AddLogInfo(CLI::App& log, Command& command) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* info =
-      log.add_subcommand("info", "Say what stands in logs: channels, runs, actors, gaps, damage");
+  CLI::App* info = log.add_subcommand("info", "Show what logs contain: channels, runs, actors, gaps, damage");
   AddEventInput(*info, options->input);
   info->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   info->callback([options, &command] { command = [options] { return Info(*options); }; });

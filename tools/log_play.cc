@@ -21,7 +21,7 @@ struct PlayOptions {
   std::string lcm_url = kDefaultLcmUrl;
 };
 
-/// One pass through the logs. Returns when it is done or the program is asked to stop.
+/// Plays the logs once. Returns at the end, or if the program is asked to stop.
 void PlayOnce(const PlayOptions& options, LogPlayer& player) {
   EventSelection selection(options.input.selection);
   const auto source = OpenEvents(options.input.sources, options.input.seconds);
@@ -39,7 +39,7 @@ void PlayOnce(const PlayOptions& options, LogPlayer& player) {
 }
 
 int Play(const PlayOptions& options) {
-  EventSelection(options.input.selection);  // before a bus is opened
+  EventSelection(options.input.selection);  // checks the options before a bus is opened
   OpenEvents(options.input.sources, options.input.seconds).reset();
   const auto bus = OpenLcmBus(options.lcm_url);
   LogPlayer player(*bus, options.speed);
@@ -63,14 +63,14 @@ int Play(const PlayOptions& options) {
 
 void AddLogPlay(CLI::App& log, Command& command) {
   auto options = std::make_shared<PlayOptions>();
-  CLI::App* play = log.add_subcommand("play", "Put events back on a bus, their bytes as they are");
+  CLI::App* play = log.add_subcommand("play", "Publish events on a bus again, with unchanged bytes");
   AddEventInput(*play, options->input);
   play->add_option("--speed", options->speed,
-                   "So many times as fast as it was recorded; 0: as fast as receivers can take it")
+                   "How many times as fast as recorded; 0: as fast as receivers can follow")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e6));
-  play->add_flag("--loop", options->loop, "Again and again, until Ctrl-C");
-  play->add_option("--lcm-url", options->lcm_url, "Where to play")->capture_default_str();
+  play->add_flag("--loop", options->loop, "Play again and again, until Ctrl-C");
+  play->add_option("--lcm-url", options->lcm_url, "LCM URL to play on")->capture_default_str();
   play->callback([options, &command] { command = [options] { return Play(*options); }; });
 }
 

@@ -36,7 +36,7 @@ std::string LossText(const Recorder::Totals& totals, const Bus& bus) {
          BusLossText(bus);
 }
 
-/// Says it once, as soon as the disk is found too slow.
+/// Warns once if events were dropped because the disk is too slow.
 void WarnOfDrops(const Recorder::Totals& totals, bool& warned) {
   if (totals.dropped_events > 0 && !warned) {
     warned = true;
@@ -76,14 +76,14 @@ void AddLogRecord(CLI::App& log, Command& command) {
   CLI::App* record = log.add_subcommand("record", "Record all traffic, until Ctrl-C or for --seconds");
   record->add_option("--out", options->out, "The log; never written over")->required();
   record
-      ->add_option(
-          "--split-mb", options->split_mb,
-          "Begin a new file whenever one has so many megabytes: OUT.00, OUT.01, ..; default: one file")
+      ->add_option("--split-mb", options->split_mb,
+                   "Split into files of so many megabytes: OUT.00, OUT.01, ..; default: one file")
       ->check(CLI::Range(0.001, 1e9));
   record->add_option("--channel", options->channels,
                      "Only channels that match this regular expression; may be repeated");
-  record->add_option("--lcm-url", options->lcm_url, "Where to listen")->capture_default_str();
-  record->add_option("--seconds", options->seconds, "End after so long")->check(CLI::Range(0.001, 1e9));
+  record->add_option("--lcm-url", options->lcm_url, "LCM URL to listen to")->capture_default_str();
+  record->add_option("--seconds", options->seconds, "How long to record; default: until Ctrl-C")
+      ->check(CLI::Range(0.001, 1e9));
   record->callback([options, &command] { command = [options] { return Record(*options); }; });
 }
 

@@ -31,9 +31,9 @@ struct RetrainOptions {
   std::string format = "text";
 };
 
-/// What a log was recorded with, and what to train with.
+/// The experiment of the recorded run, and the one to train.
 struct Experiments {
-  std::optional<Experiment> recorded;  // none: the log does not hold all of its configuration
+  std::optional<Experiment> recorded;  // none if the log does not contain its whole configuration
   Experiment chosen;
   Retraining::Use use;
 };
@@ -49,8 +49,9 @@ Settings SettingsFrom(const RetrainOptions& options) {
 void RefuseOtherScenario(const Experiment& recorded, const Experiment& chosen) {
   if (recorded.config().scenario().SerializeAsString() != chosen.config().scenario().SerializeAsString()) {
     throw UsageError(
-        "the run was recorded in another scenario than the configuration's, so its episodes are none of this "
-        "world: keep the scenario (without --config it is the recorded one) and change agent or schedule");
+        "the recorded run has another scenario than this configuration, so its episodes are not possible in "
+        "this world; keep the scenario (without --config it is the recorded one) and change agent or "
+        "schedule only");
   }
 }
 
@@ -60,7 +61,7 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
     recorded = Experiment::Parse(*run.config_text, "the recorded configuration");
   } else if (options.config.empty()) {
     throw UsageError(
-        "the log does not hold the whole configuration of its run (channel FRESCO_RUN): name it "
+        "the log does not contain the whole configuration of its run (channel FRESCO_RUN); name it "
         "with --config");
   }
   const Experiment chosen =
@@ -73,8 +74,8 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
   }
   if (!recorded) {
     throw UsageError(fmt::format(
-        "{} (hash {:08x}) is not the configuration of the recorded run ({:08x}), which the log does not hold "
-        "whole: name the one that the run had",
+        "{} (hash {:08x}) is not the configuration of the recorded run (hash {:08x}), and the log does not "
+        "contain the whole of that; name the configuration that the run had with --config",
         options.config, chosen.hash(), run.identity.config_hash));
   }
   RefuseOtherScenario(*recorded, chosen);
@@ -84,8 +85,8 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
 void WarnOfOtherArithmetic(const LoggedRun& run) {
   if (run.arithmetic_fingerprint && *run.arithmetic_fingerprint != ArithmeticFingerprint()) {
     spdlog::warn(
-        "another build of Fresco, or another kind of processor, recorded this run: its arithmetic gives "
-        "other bits, so the weights will not be the recorded ones");
+        "another build of Fresco or another kind of processor recorded this run; its arithmetic gives other "
+        "bits, so the weights will differ from the recorded ones");
   }
 }
 
@@ -125,12 +126,12 @@ void AddRetrain(CLI::App& app, Command& command) {
   retrain->add_option("log", options->logs, "Event logs of one run, in any order")->required();
   retrain->add_option("--config", options->config, ConfigHelp("the recorded one"));
   retrain->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
-  retrain->add_option("--seed", options->seed, "Seed of everything random but the recorded flights");
+  retrain->add_option("--seed", options->seed, "Seed of everything random, except the recorded flights");
   retrain->add_option("--run", options->run,
-                      "Which run of the log (16 hexadecimal digits); default: the only one");
+                      "Id of the run in the log (16 hexadecimal digits); default: the only one");
   AddKeyFileOption(*retrain, options->key_file);
   retrain->add_flag("--strict", options->strict,
-                    "An episode that the log misses is an error, not flown again");
+                    "Fail if the log misses an episode, instead of flying it again");
   retrain->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
   retrain->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   retrain->callback([options, &command] { command = [options] { return Retrain(*options); }; });

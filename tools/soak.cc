@@ -34,7 +34,7 @@ class Soak {
                                    report_.folder.string()));
     }
     CheckOutputFolder(report_.folder);
-    CheckRunAndBus(experiment_, {options.key_file});  // what is wrong here is wrong use, no round that failed
+    CheckRunAndBus(experiment_, {options.key_file});  // so that wrong use does not count as a failed round
   }
 
   SoakReport Run() {
@@ -59,12 +59,12 @@ class Soak {
     report_.failures = report_.undisturbed.failures;
     for (std::string& failure : report_.failures) {
       failure =
-          "the undisturbed run (name more --minutes or fewer episodes where it only takes long): " + failure;
+          "the undisturbed run (if it only takes long, give more --minutes or fewer episodes): " + failure;
     }
   }
 
-  /// At least one round; further ones where they fit into the time, as far as the ones before tell. None
-  /// after a failure: it is to be looked at.
+  /// Whether to run this round. The first one is always run; a further one if the longest round so far would
+  /// fit into the time left. After a failure there are no more rounds, so that somebody can look at it.
   bool GoesOn(int round) const {
     const int done = round - options_.first_round;
     const bool failed = !report_.failures.empty() ||
@@ -76,7 +76,8 @@ class Soak {
   }
 
   void RunDisturbed(int number) {
-    // Faults cease before a run could be kept from its end for good; by the limit it has had ample time.
+    // Faults stop after a time, so that they can't prevent the end of the run for ever. Until the limit there
+    // is then ample time to end.
     const double usual_s = report_.undisturbed.wall_s;
     const FaultPlan plan(options_.seed, number, experiment_.run().actors());
     SoakRoundReport round = {number, ToText(plan.disturbance()), {}, RepeatCommand(options_, number)};
@@ -111,7 +112,7 @@ class Soak {
     };
     add("processes", ProcessesLeftBehind(report_.folder));
     add("half-written files", FilesLeftBehind(report_.folder));
-    // What it remembers of every fault grows, too.
+    // Twice the allowance, since the soak's own record of the faults grows, too.
     const std::vector<std::string> leaks = Leaks(report_.after_rounds, 2 * memory_allowance_kib_);
     report_.failures.insert(report_.failures.end(), leaks.begin(), leaks.end());
   }
@@ -150,7 +151,7 @@ int RunSoak(const SoakOptions& options) {
 void AddSoak(CLI::App& app, Command& command) {
   auto options = std::make_shared<SoakOptions>();
   CLI::App* soak = app.add_subcommand(
-      "soak", "Train again and again under random faults and hold the weights against an undisturbed run");
+      "soak", "Train again and again under random faults, and compare the weights with an undisturbed run");
   AddSoakOptions(*soak, *options);
   soak->callback([options, &command] { command = [options] { return RunSoak(*options); }; });
 }

@@ -30,7 +30,7 @@ struct SpyOptions {
 
 constexpr char kJavaPackages[] = "default-jre liblcm-java libjchart2d-java";
 
-/// A jar of a Debian package or of LCM's own installation.
+/// Returns the path of a jar of a Debian package or of LCM's own installation.
 std::string SystemJar(const std::string& name) {
   for (const char* folder : {"/usr/share/java/", "/usr/local/share/java/"}) {
     if (std::filesystem::exists(folder + name)) {
@@ -41,7 +41,7 @@ std::string SystemJar(const std::string& name) {
                                name, kJavaPackages));
 }
 
-/// A jar of Fresco's own.
+/// Returns the path of a jar that is part of Fresco.
 std::string OwnJar(const std::string& name) {
   const std::filesystem::path path = SharedFolder() / name;
   if (!std::filesystem::exists(path)) {
@@ -53,8 +53,8 @@ std::string OwnJar(const std::string& name) {
   return path.string();
 }
 
-/// One class path for all: lcm-spy does not take a viewer of its table from another class loader than that of
-/// the messages.
+/// Returns one class path for all jars, since lcm-spy accepts viewers only from the class loader of the
+/// messages.
 std::string ClassPath() {
   return fmt::format("{}:{}:{}:{}", SystemJar("lcm.jar"), SystemJar("jchart2d.jar"),
                      OwnJar("fresco_types.jar"), OwnJar("fresco_spy.jar"));
@@ -65,14 +65,13 @@ void RequireDisplay() {
   if (display == nullptr || *display == '\0') {
     throw UsageError(
         "spy: expected an X display in the environment variable DISPLAY, found none; run it on a desktop, "
-        "over "
-        "ssh -X, or under xvfb-run");
+        "over ssh -X, or under xvfb-run");
   }
 }
 
-/// Java's LCM keeps the system's receive buffer whatever the URL says.
+/// Warns if the system's receive buffer is small. Java's LCM uses that, whatever the URL says.
 void WarnOfSmallReceiveBuffer() {
-  constexpr int64_t kEnoughBytes = 1 << 20;  // all chunks of a network, each with the kernel's overhead
+  constexpr int64_t kEnoughBytes = 1 << 20;  // room for all chunks of a network, with the kernel's overhead
   int64_t bytes = kEnoughBytes;
   std::ifstream("/proc/sys/net/core/rmem_default") >> bytes;
   if (bytes < kEnoughBytes) {
@@ -96,10 +95,10 @@ std::vector<std::string> JavaCommand(const SpyOptions& options) {
           options.print_table ? "true" : "false"};
 }
 
-/// Becomes Java's process, so that signals and the exit status are lcm-spy's own.
+/// Replaces this process by Java, so that lcm-spy itself receives signals and sets the exit status.
 int Spy(SpyOptions options) {
   ChannelsWithPrefix(options.channel_prefix);
-  OpenLcmBus(options.lcm_url);  // Java's LCM would try it for ever
+  OpenLcmBus(options.lcm_url);  // throws if that fails; Java's LCM would try again for ever
   RequireDisplay();
   RequireProgram("java", "default-jre");
   if (options.open == std::vector<std::string>{"all"}) {
@@ -121,14 +120,14 @@ int Spy(SpyOptions options) {
 void AddSpy(CLI::App& app, Command& command) {
   auto options = std::make_shared<SpyOptions>();
   CLI::App* spy = app.add_subcommand("spy", "Watch a run's messages, flights and curves in lcm-spy");
-  spy->add_option("--lcm-url", options->lcm_url, "Where the run is")->capture_default_str();
+  spy->add_option("--lcm-url", options->lcm_url, "LCM URL of the run")->capture_default_str();
   spy->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
       ->capture_default_str();
   spy->add_option("--open", options->open, "Open these windows at once: flight,learner,actors, or all")
       ->delimiter(',')
       ->check(OneOf({"flight", "learner", "actors", "all"}));
   spy->add_flag("--print-table", options->print_table,
-                "Also print the table once a second: channel, type, messages received, undecodable");
+                "Also print the table once a second: channel, type, messages received, damaged messages");
   spy->callback([options, &command] { command = [options] { return Spy(*options); }; });
 }
 

@@ -1,5 +1,6 @@
-// The subcommands of `fresco`, in the order of `fresco --help`. Each adds itself to the command line
-// and runs when it is chosen; its result is the exit status.
+// The subcommands of `fresco`, in the order of `fresco --help`. Each function adds its subcommand to the
+// command line. If the user chooses it, parsing sets `command`, which returns the exit status. Used by the
+// main thread.
 #pragma once
 
 #include <functional>
@@ -8,7 +9,7 @@
 
 namespace fresco {
 
-/// What to run once the command line is parsed.
+/// The function to run after the command line was parsed.
 using Command = std::function<int()>;
 
 void AddTrain(CLI::App& app, Command& command);

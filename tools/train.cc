@@ -50,7 +50,8 @@ Settings SettingsFrom(const TrainOptions& options) {
   return settings;
 }
 
-/// Minds the run until it ends or the program is asked to stop; returns the learner's exit status.
+/// Starts the run and watches it until it ends or the program is asked to stop. Returns the learner's exit
+/// status.
 int MindRun(TrainingRun& run) {
   constexpr int64_t kPollUs = 50'000;
   constexpr double kSilentS = 3;
@@ -58,7 +59,7 @@ int MindRun(TrainingRun& run) {
   run.Start();
   while (!StopSignal::Requested() && run.Step(kPollUs)) {
     if (run.SilentSeconds() > kSilentS) {
-      line.Show(fmt::format("nothing heard of the learner for {:.0f} s", run.SilentSeconds()));
+      line.Show(fmt::format("no status from the learner for {:.0f} s", run.SilentSeconds()));
     } else if (run.status()) {
       line.Show(ProgressLine(*run.status()));
     }
@@ -72,14 +73,14 @@ void Announce(const Experiment& experiment, const std::filesystem::path& folder)
   std::fflush(stdout);
 }
 
-/// Who ended a run that is not complete; in the learner's own words where it was the learner.
+/// Says why a run is not complete; if the learner ended it, in the learner's own words.
 std::string Interruption(const std::filesystem::path& folder) {
   return StopSignal::Requested()
              ? "the run was interrupted"
              : "the learner ended the run; its log ends with:" + LastLines(folder / "learner.log", 2) + "\n";
 }
 
-/// Starts the run, which was checked as a whole, minds it and shows what came out.
+/// Runs a run that was checked already, and shows its results. Returns the exit status.
 int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOptions& options) {
   const bool text = options.format == "text";
   if (options.record) {
@@ -92,12 +93,12 @@ int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOpti
   if (options.record) {
     fmt::print(text ? stdout : stderr, "{}{}\n", text ? "\n" : "", run.RecordingReport());
   }
-  WriteRunReport(folder);  // after the results: nothing that befalls a picture may hide them
+  WriteRunReport(folder);  // after the results, so that a problem with a picture can't hide them
   if (status != 0) {
-    fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ngo on with it: {}\n",
+    fmt::print(stderr, "fresco: {}; what it learned so far is in {}\ncontinue it with: {}\n",
                Interruption(folder), folder.string(), run.ResumeCommand());
   } else if (!IsFinished(summary)) {
-    fmt::print(stderr, "fresco: stopped; what was trained is complete, and {} goes on with the search\n",
+    fmt::print(stderr, "fresco: stopped; the training is complete, continue the search with: {}\n",
                run.ResumeCommand());
   } else if (text) {
     fmt::print("\nlook at it: {}\nfly it:     {} evaluate --policy {}\n", (folder / "report.html").string(),
@@ -120,11 +121,11 @@ int TrainAnew(const TrainOptions& options) {
 int GoOn(const TrainOptions& options) {
   const Resumption resumption = ReadInterruptedRun(options.resume, SettingsFrom(options));
   TrainingRun run(resumption, options.resume, options.bus);
-  for (const UnusableCheckpoint& checkpoint : resumption.unusable) {  // the learner sets them aside
-    spdlog::warn("{}; going on from the checkpoint before", checkpoint.problem);
+  for (const UnusableCheckpoint& checkpoint : resumption.unusable) {  // the learner renames them
+    spdlog::warn("{}; continuing from an earlier checkpoint", checkpoint.problem);
   }
   if (options.format == "text") {
-    fmt::print("going on after {} episodes; ",
+    fmt::print("continuing after {} episodes; ",
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
@@ -144,9 +145,7 @@ void AddTrain(CLI::App& app, Command& command) {
   CLI::Option* seed = train->add_option("--seed", options->seed, "Seed of everything random");
   CLI::Option* out =
       train->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
-  train
-      ->add_option("--resume", options->resume,
-                   "Go on with the run in this folder, from its latest checkpoint")
+  train->add_option("--resume", options->resume, "Continue the run in this folder from its latest checkpoint")
       ->excludes(config)
       ->excludes(seed)
       ->excludes(out);
@@ -154,7 +153,7 @@ void AddTrain(CLI::App& app, Command& command) {
   CLI::Option* record = train->add_flag("--record", options->record, "Record all traffic to DIR/traffic.lcm");
   train
       ->add_option("--record-split-mb", options->record_split_mb,
-                   "Record in files of so many megabytes: traffic.lcm.00, traffic.lcm.01, ..")
+                   "Split the recording into files of so many megabytes: traffic.lcm.00, traffic.lcm.01, ..")
       ->needs(record)
       ->check(CLI::Range(0.001, 1e9));
   AddBusOptions(*train, options->bus);

@@ -18,7 +18,7 @@ const ActionHistory::Entry& ActionHistory::Latest(int64_t age) const {
 
 std::vector<int16_t> ActionHistory::Actions() const {
   int64_t count = std::min(added_, capacity_);
-  // Back to the beginning of the episode: the one before ended with the transition before.
+  // Go back to the beginning of the episode: the transition before it ended the previous episode.
   while (count > 0 && count < added_ && !Latest(count).last) {
     ++count;
   }

@@ -11,7 +11,7 @@ std::span<const float> Span(const Vector& vector) {
   return {vector.data(), static_cast<size_t>(vector.size())};
 }
 
-/// The first action of the largest value among those without penalty.
+/// The allowed action (penalty 0) with the largest value in this column; the lowest index if several have it.
 int BestAllowed(const Matrix& values, const Matrix& penalty, int column) {
   int best = 0;
   for (int action = 1; action < penalty.rows(); ++action) {

@@ -1,5 +1,6 @@
-// The DQN of Algorithm 1: current and target network, one gradient step a mini-batch. Pure
-// arithmetic in a fixed order; no allocation after construction. Not thread-safe.
+// The deep Q-network (DQN) of Algorithm 1: a current and a target network, and one gradient step for each
+// mini-batch. Does its arithmetic in a fixed order, so equal inputs give equal bits. Does not allocate after
+// construction. The trainer owns it. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -11,35 +12,37 @@
 namespace fresco {
 
 struct DqnOptions {
-  bool double_dqn = false;  ///< the current network chooses in s', the target network values
-  float discount = 1;       ///< gamma
-  int batch_size = 200;
+  bool double_dqn = false;  ///< the current network chooses the action in s', the target network values it
+  float discount = 1;       ///< gamma, 0 .. 1
+  int batch_size = 200;     ///< transitions in a mini-batch, >= 1
   AdamOptions adam;
 };
 
 class Dqn {
  public:
-  /// Both networks begin as `initial`.
+  /// Both networks begin as `initial`, which has shape.parameter_count() entries.
   Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options);
 
-  /// What it takes of memory beside the object itself, once it is warm: for the networks, their gradient and
-  /// Adam's moments, and for a batch.
+  /// The memory of an object after its first update, bytes: for the networks, their gradient and Adam's
+  /// moments, and for a batch.
   static int64_t ParameterBytes(const MlpShape& shape);
   static int64_t BatchBytes(const MlpShape& shape, int batch_size);
 
-  /// One step on L = mean (y - Q(s, a))^2 (eq. Loss-Func), y = r, plus discount * max over the
-  /// actions allowed in s' of the target network where s' is not terminal; y is at least the
-  /// transition's least value. Returns L before the step.
+  /// Makes one step of Adam on the loss L = mean (y - Q(s, a))^2 (eq. Loss-Func) of a batch of exactly
+  /// options.batch_size transitions. The target y is r if the transition is terminal; otherwise it is r plus
+  /// discount times the target network's largest value over the actions allowed in s'. If y is below the
+  /// transition's least value, that value replaces it. Returns L before the step.
   double Update(const MiniBatch& batch, double learning_rate);
 
-  /// theta^- = theta.
+  /// Copies the current network's parameters to the target network: theta^- = theta.
   void CopyToTarget() { target_ = current_; }
 
   const Vector& current() const { return current_; }
   const Vector& target() const { return target_; }
   const Adam::State& adam() const { return adam_.state(); }
 
-  /// Goes on from networks and moments of another time. CHECKs their sizes.
+  /// Replaces both networks and the state of the optimiser, for example by those of a checkpoint. CHECKs
+  /// their sizes.
   void Restore(const Vector& current, const Vector& target, const Adam::State& adam);
 
  private:
@@ -55,7 +58,7 @@ class Dqn {
   Vector targets_;          // y
   Matrix output_gradient_;  // [actions x batch]
   Vector gradient_;
-  std::vector<int> choices_;  // of the current network in s', Double DQN only
+  std::vector<int> choices_;  // actions that the current network chooses in s'; for Double DQN only
 };
 
 }  // namespace fresco

@@ -1,5 +1,5 @@
-// The replay memory D of Algorithm 1: a ring of the latest transitions, as the network sees them.
-// Not thread-safe. No allocation after construction.
+// The replay memory D of Algorithm 1: a ring that holds the latest transitions as the network sees them. The
+// trainer owns it. Not thread-safe. Does not allocate after construction.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace fresco {
 
-/// A mini-batch, one transition a column or entry.
+/// A mini-batch: column or entry i of each member belongs to transition i.
 struct MiniBatch {
   MiniBatch(int inputs, int actions, int batch_size);
 
@@ -21,43 +21,48 @@ struct MiniBatch {
 
   int size() const { return static_cast<int>(actions.size()); }
 
-  Matrix observations;       ///< [inputs x batch]
-  Matrix next_observations;  ///< [inputs x batch]
-  std::vector<int16_t> actions;
-  std::vector<float> rewards;
-  std::vector<uint8_t> terminal;    ///< 1: no next state
-  std::vector<float> least_values;  ///< Q(s, a) is known to be no smaller; -infinity: nothing is known
-  Matrix next_penalty;              ///< [actions x batch]: 0 where allowed in s', -infinity where not
+  Matrix observations;              ///< [inputs x batch]
+  Matrix next_observations;         ///< [inputs x batch]
+  std::vector<int16_t> actions;     ///< [batch]
+  std::vector<float> rewards;       ///< [batch]
+  std::vector<uint8_t> terminal;    ///< [batch]; 1: the episode ended, so there is no action in s'
+  std::vector<float> least_values;  ///< [batch]; a lower bound of Q(s, a); -infinity if none is known
+  Matrix next_penalty;              ///< [actions x batch]; 0 if the action is allowed in s', otherwise
+                                    ///< -infinity
 };
 
-/// One transition, for inserting.
+/// One transition (s, a, r, s') to insert.
 struct Transition {
-  std::span<const float> observation;
-  std::span<const float> next_observation;
+  std::span<const float> observation;       ///< s as the network sees it, [inputs]
+  std::span<const float> next_observation;  ///< s' as the network sees it, [inputs]
   int16_t action = 0;
   float reward = 0;
   bool terminal = false;
-  std::span<const uint8_t> next_mask;  ///< packed bits
-  float least_value = -std::numeric_limits<float>::infinity();
+  std::span<const uint8_t> next_mask;  ///< actions allowed in s': bit a % 8 of byte a / 8
+  float least_value = -std::numeric_limits<float>::infinity();  ///< as in MiniBatch
 };
 
 class ReplayMemory {
  public:
+  /// `inputs`: entries of an observation. `actions`: number of actions. `capacity` (>= 1): transitions held
+  /// at most.
   ReplayMemory(int inputs, int actions, int64_t capacity);
 
-  /// What it takes of memory beside the object itself, once it is full.
+  /// The memory of an object when it is full, bytes.
   static int64_t BytesFor(int inputs, int actions, int64_t capacity);
 
+  /// Copies the transition into the ring. If the ring is full, the oldest transition is overwritten. CHECKs
+  /// sizes.
   void Insert(const Transition& transition);
 
-  /// An empty memory goes on as if `transitions` had been inserted and were forgotten: the next one takes
-  /// the place that it would have.
+  /// For a memory that is still empty: the next transition is inserted at the place that it would have after
+  /// `transitions` (>= 0) earlier ones.
   void BeginAt(int64_t transitions) { next_ = transitions % capacity_; }
 
   /// Transitions held, at most the capacity.
   int64_t size() const { return size_; }
 
-  /// Fills the batch with transitions drawn uniformly, with replacement. CHECKs that there is one.
+  /// Fills the batch with transitions drawn uniformly, with replacement. CHECKs that the memory is not empty.
   void Sample(RandomStream& stream, MiniBatch& batch) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace fresco {
 namespace {
 
-/// base^exponent by squaring: the same bits with every mathematical library.
+/// base^exponent by squaring. Unlike std::pow, it gives the same bits with every mathematical library.
 double IntegerPower(double base, int64_t exponent) {
   double power = 1;
   for (; exponent > 0; exponent /= 2, base *= base) {

@@ -1,4 +1,5 @@
-// What the schedule says of each episode and update of a run: seed, epsilon, learning rate. Pure.
+// Computes the seed and the epsilon of each training episode and the learning rate of each update from the
+// configuration. Pure functions; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +8,21 @@
 
 namespace fresco {
 
-/// Seed of a training episode's random streams. `seed` is the run's, `episode` counts the training episodes
-/// from 0; evaluations do not count, so they have no influence on what is learned.
+/// The seed of a training episode's random draws. `seed` is schedule.seed; `episode` is the episode's number
+/// among the training episodes, 0, 1, .. Evaluations are not counted, so they have no influence on the
+/// training.
 uint64_t EpisodeSeed(uint64_t seed, int64_t episode);
 
-/// Epsilon of a training episode (0, 1, ..) that is ordered when `transitions` were committed.
+/// The epsilon, 0 .. 1, of training episode number `episode` (0, 1, ..), if its order is written when
+/// `transitions` transitions are committed.
 double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t transitions);
 
-/// Learning rate of the next update, after `updates` updates and `episodes` committed episodes.
-/// `expected_updates` of the whole run is the span of the linear decay.
+/// The learning rate of the next update, after `updates` updates and `episodes` committed training episodes.
+/// A linear decay ends after `expected_updates` (>= 1) updates.
 double LearningRateOf(const proto::Agent& agent, int64_t updates, int64_t episodes, int64_t expected_updates);
 
-/// Updates of a run whose every episode lasts `transitions_per_episode` transitions.
+/// The number of updates, at least 1, of a run in which every episode has `transitions_per_episode`
+/// transitions.
 int64_t ExpectedUpdates(const proto::Schedule& schedule, int transitions_per_episode);
 
 }  // namespace fresco

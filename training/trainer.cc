@@ -62,8 +62,8 @@ void Trainer::Commit(const Order& order, const Episode& episode) {
   ForgetVersions();
 }
 
-/// What the episode earned from each transition on: the world is deterministic, so that much is within
-/// reach (a lower bound of Q*, as in He et al., "Learning to play in a day", 2017).
+/// Computes the return that the episode earned from each transition on. The world is deterministic, so this
+/// return is a lower bound of Q* (as in He et al., "Learning to play in a day", 2017).
 void Trainer::TakeLeastValues(const Episode& episode) {
   if (!experiment_.agent().flown_return_bound()) {
     std::fill(least_values_.begin(), least_values_.end(), -std::numeric_limits<float>::infinity());
@@ -77,8 +77,8 @@ void Trainer::TakeLeastValues(const Episode& episode) {
   }
 }
 
-/// Evaluations stand beside the training orders: each training episode makes room for one training order,
-/// whatever is evaluated.
+/// Every committed training episode is followed by one new training order. Evaluations are written in
+/// addition, so they have no influence on the training orders.
 void Trainer::CommitTraining(const Episode& episode) {
   const int64_t evaluations_due = EvaluationsDue();
   TakeLeastValues(episode);
@@ -103,7 +103,7 @@ void Trainer::CommitTraining(const Episode& episode) {
   }
 }
 
-/// Evaluations that the versions of the current network ask for by now.
+/// How many evaluations the current network's versions have called for so far.
 int64_t Trainer::EvaluationsDue() const {
   return progress_.current_version / experiment_.schedule().versions_per_evaluation();
 }
@@ -153,8 +153,8 @@ void Trainer::Offer(NetworkKind kind, int32_t version, const Vector& parameters)
   output_.version(kind, version, copy);
 }
 
-/// Orders name the newest versions of their time, so a version older than those of the oldest order
-/// is not named any more.
+/// Drops the versions that no order in flight names. An order names the versions that are newest when it is
+/// written, so the oldest order names the oldest versions.
 void Trainer::ForgetVersions() {
   const bool none = orders_.empty();
   const int32_t current = none ? progress_.current_version : orders_.front().order.current_version;
@@ -167,7 +167,7 @@ void Trainer::ForgetVersions() {
 
 void Trainer::WriteFinalEvaluation() {
   if (versions_.at({NetworkKind::kCurrent, progress_.current_version}).updates != progress_.updates) {
-    MakeVersion();  // the final version, however few updates it has
+    MakeVersion();  // the final version, even if it has fewer updates than updates_per_version
   }
   WriteEvaluation();
 }
@@ -191,7 +191,7 @@ void Trainer::WriteEvaluation() {
   WriteOrder(order);
 }
 
-/// Completes the order with its index and the newest versions, and hands it out.
+/// Gives the order its index and the newest versions, and hands it out.
 void Trainer::WriteOrder(Order order) {
   order.index = progress_.committed_orders + static_cast<int64_t>(orders_.size());
   order.current_version = progress_.current_version;

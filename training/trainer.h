@@ -1,6 +1,6 @@
-// The deterministic heart of the learner: takes episodes in the order of their indices, and from
-// them alone follow every update, every version, every further order and the final weights. Knows
-// no bus, no clock and no actor. Not thread-safe.
+// The trainer is the deterministic part of the learner. It takes episodes in the order of their indices;
+// these alone decide every update, every network version, every further order and the final weights. It uses
+// no bus, no clock and no actor. The learner's training thread owns it. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,16 @@
 
 namespace fresco {
 
-/// Where the trainer hands out what follows from the episodes. All are called from within Begin, Resume
-/// and Commit.
+/// The functions to which the trainer hands its results. Begin, Resume and Commit call them, on their own
+/// thread.
 struct TrainerOutput {
+  /// Takes a new order.
   std::function<void(const Order&)> order;
+  /// Takes a new version of a network.
   std::function<void(NetworkKind, int32_t version, std::shared_ptr<const Vector>)> version;
+  /// Takes the result of an evaluation.
   std::function<void(const Evaluation&)> evaluation;
-  /// Called after every update, for progress; may be empty.
+  /// Called after every update, to report progress; may be empty.
   std::function<void()> updated;
 };
 
@@ -36,21 +39,23 @@ class Trainer {
   /// `world` must outlive the trainer.
   Trainer(const Experiment& experiment, const World& world, TrainerOutput output);
 
-  /// Hands out version 0 of both networks and the first orders. Either Begin or Resume is called, once.
+  /// Starts a new training: hands out version 0 of both networks and the first orders. Call either Begin or
+  /// Resume, and only once.
   void Begin();
 
-  /// Goes on from `state`: hands out its versions and, once more, its orders. Throws Failure where the
-  /// state contradicts the experiment; the trainer is then of no use.
+  /// Continues from `state`: hands out its versions and its orders again. Throws Failure if the state
+  /// contradicts the experiment; the trainer can't be used after that.
   void Resume(const TrainingState& state);
 
-  /// Where the training stands, for Resume. Copies four parameter vectors and the actions.
+  /// Returns the state from which Resume can continue. Copies four parameter vectors and the actions.
   TrainingState Save() const;
 
-  /// Takes the episode of the order with the lowest index that has not been committed. CHECKs the
-  /// index; the episode is whole and was checked.
+  /// Takes the episode of the oldest order that is not committed, inserts its transitions and makes the
+  /// updates that are due. CHECKs that it is that order. The caller has checked that the episode is whole and
+  /// follows from its actions.
   void Commit(const Order& order, const Episode& episode);
 
-  /// Every training episode is committed and the final version is evaluated.
+  /// Whether every training episode is committed and the final version is evaluated.
   bool finished() const { return AllEpisodesCommitted() && orders_.empty(); }
 
   const TrainerProgress& progress() const { return progress_; }
@@ -87,16 +92,16 @@ class Trainer {
   int64_t expected_updates_;
   NetworkInput network_input_;
   ReplayMemory replay_;
-  ActionHistory history_;  // of what is in the replay memory
+  ActionHistory history_;  // the actions of the transitions in the replay memory
   MiniBatch batch_;
   Dqn dqn_;
   std::vector<float> observation_;
   std::vector<float> next_observation_;
-  std::vector<float> least_values_;  // of the episode's transitions
+  std::vector<float> least_values_;  // for each transition of the episode that is being committed
   TrainerProgress progress_;
-  int64_t training_orders_ = 0;  // written
-  std::deque<OrderInFlight> orders_;             // by index, from progress_.committed_orders on
-  std::map<VersionKey, VersionState> versions_;  // those that orders_ name, and the newest
+  int64_t training_orders_ = 0;                  // training orders written so far
+  std::deque<OrderInFlight> orders_;             // sorted by index, from progress_.committed_orders on
+  std::map<VersionKey, VersionState> versions_;  // those that orders_ name, and the newest of each network
   std::optional<Evaluation> last_evaluation_;
   std::optional<BestNetwork> best_;
 };

@@ -77,7 +77,7 @@ class Authentication(FrescoTest):
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=30)
         self.assertEqual(process.returncode, 1, errors)
-        program, *command = errors.split("go on with it: ")[1].split()
+        program, *command = errors.split("continue it with: ")[1].split()
         self.assertEqual(program, str(BIN / "fresco"))  # as it was called
         self.assertIn("--key-file", command)
         output, _ = self.run_fresco(*command, "--format", "json")

@@ -131,7 +131,7 @@ class Train(FrescoTest):
         with open(errors, "w") as file:
             process = self.start(*self.few_episodes(17311, "stopped", 40, "run.optimum_limit_s=3600"), "--format",
                                  "json", stderr=file)
-        waits = r"trained, waits for the proof of the exact optimum: \d+ s of processor time more at most"
+        waits = r"trained, waits for the proof of the exact optimum: at most \d+ s more of processor time"
         wait_until(lambda: re.search(waits, errors.read_text()), "the end of the training")
         process.send_signal(signal.SIGINT)
         output, _ = process.communicate(timeout=60)

@@ -98,7 +98,7 @@ TEST_F(RosterReport, ListsActorsWithTheAgeOfTheirStatusAndTheirOrders) {
   for (int64_t actor = 1000; actor < 1100; ++actor) {
     Hear(actor, kBeginUs);
   }
-  EXPECT_NE(roster_.StateText(kBeginUs).find("\n  and 70 actors more"), std::string::npos);
+  EXPECT_NE(roster_.StateText(kBeginUs).find("\n  and 70 more actors"), std::string::npos);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(StarvationWarning, SaysWhenTheRunGoesOn) {
   StarvationWarning warning;
   EXPECT_TRUE(warning.Note(6, "an actor to join"));
   EXPECT_FALSE(warning.Note(12, "an actor to join"));
-  EXPECT_EQ(warning.Note(0, ""), "a result arrived after 12 s; the run goes on");
+  EXPECT_EQ(warning.Note(0, ""), "a result arrived after 12 s; the run continues");
   EXPECT_FALSE(warning.Note(0, ""));
   EXPECT_TRUE(warning.Note(5.5, "an actor to join"));
 }

@@ -53,10 +53,11 @@ TEST(ProgressLine, SaysHowFarTheRunIsAndWhoWaits) {
 TEST(ProgressLine, BeginsWithWhatIsWaitedForAfterTheTraining) {
   learner_status_t status = Status();
   status.episodes = status.total_episodes;
-  status.waiting_for = "the proof of the exact optimum: 40 s of processor time more at most";
-  EXPECT_EQ(ProgressLine(status).find(
-                "trained, waits for the proof of the exact optimum: 40 s of processor time more at most | 6000 "),
-            0u);
+  status.waiting_for = "the proof of the exact optimum: at most 40 s more of processor time";
+  EXPECT_EQ(
+      ProgressLine(status).find(
+          "trained, waits for the proof of the exact optimum: at most 40 s more of processor time | 6000 "),
+      0u);
 }
 
 TEST(ProgressLine, BeginsWithAWarning) {

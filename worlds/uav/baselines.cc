@@ -9,8 +9,8 @@
 namespace fresco {
 namespace {
 
-// Of the sensors that `eligible(sensor)` admits the one with the largest AoI, the lowest index at
-// equal AoI; -1: none.
+// Returns the sensor with the largest AoI among those for which `eligible(sensor)` is true; of equal ones the
+// lowest index; -1 if there is none.
 template <typename Eligible>
 int Oldest(const State& state, const Eligible& eligible) {
   int oldest = -1;
@@ -31,7 +31,7 @@ int OldestAfter(const State& state, int served_now) {
   return oldest >= 0 ? oldest : served_now;
 }
 
-// The index of the cell along one axis whose centre is nearest; the lower one half-way.
+// Returns the index of the nearest cell along one axis; half-way between two cells, the lower one.
 int NearestIndex(double position_m, double cell_m, int cells) {
   const double index = std::ceil(position_m / cell_m - 0.5);
   return static_cast<int>(std::clamp(index, 0.0, cells - 1.0));
@@ -42,7 +42,7 @@ Cell NearestCell(const Scenario& scenario, const Sensor& sensor) {
           NearestIndex(sensor.y_m, scenario.cell_m, scenario.rows)};
 }
 
-// To the stop and, once there, hovering as long as that is affordable, else to and fro.
+// Flies to the stop. Once there, hovers if the energy allows it, and otherwise flies to and fro.
 Move MoveHome(const Environment& environment, Cell stop) {
   const Move direct = MoveTowards(environment.state().cell, stop);
   if (environment.IsSafe(direct)) {
@@ -53,7 +53,7 @@ Move MoveHome(const Environment& environment, Cell stop) {
       return move;
     }
   }
-  return direct;  // only where the stop was out of reach already
+  return direct;  // no move is safe: the stop was out of reach already
 }
 
 }  // namespace

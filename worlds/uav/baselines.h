@@ -1,4 +1,5 @@
-// The paper's two comparison algorithms (section IV), with the choices of docs/paper.md. Pure.
+// The paper's two comparison algorithms (section IV), with the choices of docs/paper.md. Deterministic; no
+// I/O. Only one thread at a time may use an object.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +9,25 @@
 
 namespace fresco {
 
-/// The target, chosen after the slot's transmission (it comes before the move, and what it serves
-/// counts as served). Ties: the lowest index.
+/// How a baseline chooses the sensor that it flies to. It chooses after the slot's transmission, so the
+/// sensor that transmits in the slot counts as served. Of equal sensors it takes the lowest index.
 enum class BaselineKind {
   kAoi,       ///< the sensor with the largest AoI
-  kDistance,  ///< in rounds: the nearest sensor not yet served in this round
+  kDistance,  ///< in rounds: the nearest sensor that was not served in this round yet
 };
 
-/// A baseline flying one episode at a time: a cell a slot towards the cell nearest to its target, along
-/// the axis with the larger distance (ties: columns). Serves on the way the covered sensor with the largest
-/// AoI; flies to the stop as soon as the wanted move would put it out of reach, and stays there, so it
-/// always arrives.
+/// A baseline that flies one episode at a time. In each slot it schedules the covered sensor with the largest
+/// AoI and flies one cell towards the cell nearest to its target, along the axis with the larger distance
+/// (columns if they are equal). As soon as that move would put the stop out of reach, it flies to the stop
+/// and stays there, so it always arrives.
 class Baseline {
  public:
+  /// `world` must outlive the object.
   Baseline(BaselineKind kind, const World& world);
+  /// Prepares for a new episode.
   void Reset();
-  /// The action for the environment's present state; updates the round of the distance baseline.
+  /// Returns the action for the environment's present state. Call it once in each slot: it updates the round
+  /// of the distance baseline.
   Action Choose(const Environment& environment);
 
  private:
@@ -31,8 +35,8 @@ class Baseline {
 
   BaselineKind kind_;
   const World* world_;
-  std::vector<uint8_t> served_;  // this round, kDistance only
-  bool returning_ = false;       // on the way to the stop, for good
+  std::vector<uint8_t> served_;  // by sensor: 1 if served in this round; for kDistance only
+  bool returning_ = false;       // on the way to the stop until the episode ends
 };
 
 }  // namespace fresco

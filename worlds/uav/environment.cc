@@ -47,7 +47,7 @@ StepResult Environment::Step(Action action) {
   return {RewardOfState(), outcome_};
 }
 
-// Eq. (Dynamic-AoI), with the cap delta_max where there is one.
+// Eq. (Dynamic-AoI). If the scenario has a maximum_aoi, AoI grows no further than that.
 void Environment::Collect(int schedule) {
   const int cap = world_->scenario().maximum_aoi.value_or(world_->scenario().slots);
   for (int sensor = 0; sensor < world_->sensors(); ++sensor) {
@@ -57,7 +57,7 @@ void Environment::Collect(int schedule) {
   }
 }
 
-// A move off the grid leaves the UAV where it is, and is a hover in energy too.
+// A move off the grid leaves the UAV where it is, so it takes the energy of a hover.
 double Environment::SlotEnergy(Cell next) const {
   return next == state_.cell ? world_->hovering_energy_j() : world_->flying_energy_j();
 }
@@ -68,8 +68,8 @@ void Environment::UpdateMargins() {
   state_.energy_margin_j = static_cast<float>(EnergyMargin(*world_, state_.cell, slots_left, remaining_j_));
 }
 
-// With no slot left, phi >= 0 says that the UAV is over the stop. (Rounding Delta to float keeps
-// its sign: it is zero or far above the smallest float.)
+// If no slot is left, phi >= 0 means that the UAV is over the stop. Rounding Delta to float keeps its sign,
+// since Delta is either zero or far above the smallest float.
 Outcome Environment::PresentOutcome() const {
   if (state_.time_margin < 0) {
     return Outcome::kOutOfTime;
@@ -108,7 +108,7 @@ void Environment::WriteMask(MaskOptions options, std::span<uint8_t> mask) const 
     allowed[static_cast<size_t>(move)] = !options.safe_actions || IsSafe(static_cast<Move>(move));
   }
   if (std::count(allowed.begin(), allowed.end(), 1) == 0) {
-    allowed.fill(1);  // the stop is lost already, or the episode is over: nothing to protect
+    allowed.fill(1);  // the stop is out of reach already, or the episode is over
   }
   const bool covered_only = options.coverage && outcome_ == Outcome::kFlying;
   size_t index = 0;

@@ -1,6 +1,5 @@
-// The UAV's world as an environment: reset, step, mask. Follows the choices listed in
-// docs/paper.md. Deterministic; one instance is used by one thread at a time; no allocation after
-// construction.
+// The reinforcement learning environment: reset, step, mask. It follows the choices listed in docs/paper.md.
+// Deterministic. Only one thread at a time may use an instance. Does not allocate after construction.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +9,20 @@
 
 namespace fresco {
 
+/// How an episode ended.
 enum class Outcome : uint8_t {
-  kFlying = 0,
-  kArrived = 1,      ///< over the stop at slot T with Delta >= 0
+  kFlying = 0,       ///< it has not ended
+  kArrived = 1,      ///< the UAV is over the stop at slot T, and Delta >= 0
   kOutOfTime = 2,    ///< phi < 0, whatever Delta is
   kOutOfEnergy = 3,  ///< Delta < 0 and phi >= 0
 };
+/// "flying", "arrived", "out of time" or "out of energy".
 const char* OutcomeName(Outcome outcome);
 
-/// Which actions the mask leaves out.
+/// Which actions the mask forbids.
 struct MaskOptions {
-  bool safe_actions = false;  ///< moves off the grid or to where the stop is out of reach
-  bool coverage = false;      ///< schedules of sensors that the UAV does not cover now
+  bool safe_actions = false;  ///< forbid moves off the grid, and moves after which the stop can't be reached
+  bool coverage = false;      ///< forbid scheduling sensors that the UAV does not cover now
 };
 
 struct StepResult {
@@ -35,25 +36,26 @@ class Environment {
   /// `world` must outlive the environment.
   explicit Environment(const World& world);
 
-  /// Back to slot 1 over the start with AoI 1.
+  /// Begins a new episode: slot 1, the UAV over the start, every AoI 1, full energy.
   void Reset();
 
   const State& state() const { return state_; }
+  /// Energy on board, joules.
   double remaining_energy_j() const { return remaining_j_; }
   Outcome outcome() const { return outcome_; }
 
-  /// One slot: the scheduled sensor transmits from o_t, then the UAV moves. CHECKs that the episode
-  /// is not over. The reward is r_t of docs/paper.md; where one move breaks both constraints, both
-  /// penalties are charged.
+  /// Flies one slot: the scheduled sensor transmits while the UAV is over o_t, then the UAV moves. CHECKs
+  /// that the episode is not over and that the sensor's number is 0 .. N. The reward is r_t of docs/paper.md;
+  /// a move that breaks both constraints costs both penalties.
   StepResult Step(Action action);
 
-  /// mask[a] = 1 where the action of index a is allowed now; `mask` has actions() entries. With no
-  /// option every action is allowed. Once the episode is over, all are allowed (no next action).
-  /// Where no move is safe (only by flying without the mask), none is left out, so at least one
-  /// action is always allowed.
+  /// Writes 1 to mask[a] if the action with index a is allowed now, otherwise 0. CHECKs that `mask` has
+  /// actions() entries. Without options every action is allowed, and so it is once the episode is over. If no
+  /// move is safe (which happens only after flying without the mask), all moves are allowed, so there is
+  /// always an allowed action.
   void WriteMask(MaskOptions options, std::span<uint8_t> mask) const;
 
-  /// Whether the move leads to where the stop can still be reached, and stays on the grid.
+  /// Whether the move stays on the grid and the stop can still be reached after it.
   bool IsSafe(Move move) const;
 
  private:

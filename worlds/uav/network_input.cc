@@ -12,7 +12,7 @@ float Share(int position, int cells) {
   return cells > 1 ? static_cast<float>(position) / static_cast<float>(cells - 1) : 0.0f;
 }
 
-/// In units of the grid's longer side.
+/// The horizontal distance, divided by the grid's longer side.
 float ScaledDistance(const Scenario& scenario, Cell cell, const Sensor& sensor) {
   const double distance_m =
       std::hypot(cell.column * scenario.cell_m - sensor.x_m, cell.row * scenario.cell_m - sensor.y_m);

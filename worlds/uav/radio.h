@@ -1,16 +1,18 @@
-// Coverage radius and transmission power of a sensor (paper, eq. for R). Pure.
+// Computes the coverage radius from the transmission power of a sensor and back (paper, eq. for R). Pure
+// functions; any thread may call them. Both throw UsageError if a value of `radio` or `slot_s` is out of
+// range (worlds/uav/scenario_check.h).
 #pragma once
 
 #include "worlds/uav/scenario.h"
 
 namespace fresco {
 
-/// R = sqrt(beta0 P / ((2^(M / (B tau)) - 1) sigma^2) - h^2), in metres, for a transmission power in
-/// watts. Throws UsageError where the power can't reach the ground from the UAV's altitude.
+/// Returns R = sqrt(beta0 P / ((2^(M / (B tau)) - 1) sigma^2) - h^2), in metres, for a transmission power P
+/// in watts. Throws UsageError if the power is too small to reach the UAV at its altitude.
 double CoverageRadius(const Radio& radio, double slot_s, double transmit_power_w);
 
-/// The power in watts that gives the radius: the inverse of CoverageRadius. 0.07564 W for 100 m
-/// with Table I.
+/// The inverse of CoverageRadius: returns the power in watts for a radius in metres. With Table I, 100 m take
+/// 0.07564 W.
 double TransmitPower(const Radio& radio, double slot_s, double coverage_radius_m);
 
 }  // namespace fresco

@@ -1,4 +1,4 @@
-// The part of world.h that says what is still within reach.
+// The part of world.h that decides whether the stop can still be reached.
 #include <algorithm>
 
 #include "core/check.h"
@@ -19,7 +19,7 @@ double CompletionEnergy(const World& world, Cell cell, int slots_left) {
   FRESCO_CHECK(slack >= 0);
   const bool hovering_is_dearer = world.hovering_energy_j() > world.flying_energy_j();
   const bool single_cell = world.scenario().columns == 1 && world.scenario().rows == 1;
-  // To and fro takes two slots, so it uses up any even slack, given a second cell to fly to.
+  // Flying to a neighbouring cell and back takes two slots, so it uses up an even number of spare slots.
   const int hovers = hovering_is_dearer && !single_cell ? slack % 2 : slack;
   return (slots_left - hovers) * world.flying_energy_j() + hovers * world.hovering_energy_j();
 }

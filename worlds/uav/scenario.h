@@ -1,5 +1,5 @@
-// A scenario: everything that defines the world of one field of sensors, in SI units. Plain values;
-// `World` (world.h) checks them and derives the rest. Defaults are the paper's Table I.
+// A scenario defines the world of one field of sensors, in SI units. Plain values, which World (world.h)
+// checks. The defaults are the paper's Table I; scenario_check.cc has the ranges.
 #pragma once
 
 #include <cstdint>
@@ -8,31 +8,33 @@
 
 namespace fresco {
 
-/// A transition of so many sensors still fits one Ethernet frame (msgs/lcm/transitions_t.lcm).
+/// The most sensors of a scenario: a transition with so many still fits one Ethernet frame
+/// (msgs/lcm/transitions_t.lcm).
 inline constexpr int kMaximumSensors = 250;
 
+/// A cell of the grid. Its centre is at (column, row) * cell_m.
 struct Cell {
-  int column = 0;
-  int row = 0;
+  int column = 0;  ///< from the west, 0, 1, ..
+  int row = 0;     ///< from the south, 0, 1, ..
   bool operator==(const Cell&) const = default;
 };
 
 struct Sensor {
-  double x_m = 0;
-  double y_m = 0;
+  double x_m = 0;     ///< metres east of the centre of cell (0, 0)
+  double y_m = 0;     ///< metres north of it
   double weight = 1;  ///< importance; theta_n = weight_n / sum of weights
 };
 
-/// Table I, channel part; converted to linear units by radio.cc.
+/// Table I, channel part.
 struct Radio {
-  double bandwidth_hz = 1e6;
-  double update_bits = 5e6;
-  double noise_dbm = -100;
-  double gain_at_1m_db = -60;
-  double altitude_m = 120;
+  double bandwidth_hz = 1e6;   ///< B
+  double update_bits = 5e6;    ///< M, bits of one status update
+  double noise_dbm = -100;     ///< sigma^2, noise power
+  double gain_at_1m_db = -60;  ///< beta_0, channel gain at one metre
+  double altitude_m = 120;     ///< h, altitude of the UAV
 };
 
-/// Table I, rotor part.
+/// Table I, rotor part: the parameters of PropulsionPower (rotor.h).
 struct Rotor {
   double blade_profile_power_w = 99.66;
   double induced_power_w = 120.16;
@@ -44,33 +46,34 @@ struct Rotor {
   double disk_area_m2 = 0.5;
 };
 
-/// Constants of eq. (reward), on the scale of theta_n = weight_n / sum of weights.
+/// The constants of eq. (reward), in which AoI counts with weights theta_n that sum to one.
 struct Reward {
-  double k1 = 1;  ///< penalty when the stop is out of reach in time, phi < 0
-  double k2 = 1;  ///< penalty when the energy does not suffice, Delta < 0
+  double k1 = 1;  ///< penalty if the stop can't be reached in time, phi < 0
+  double k2 = 1;  ///< penalty if the energy does not last to the stop, Delta < 0
   double k3 = 1;  ///< bonus for arriving
 };
 
 struct Scenario {
   int columns = 20;
   int rows = 20;
-  double cell_m = 25;
-  int slots = 70;     ///< T
-  double slot_s = 1;  ///< tau
-  Cell start{10, 0};
-  Cell stop{10, 19};
+  double cell_m = 25;  ///< side of a cell
+  int slots = 70;      ///< T, slots of a flight
+  double slot_s = 1;   ///< tau, length of a slot
+  Cell start{10, 0};   ///< cell over which every flight begins
+  Cell stop{10, 19};   ///< cell over which it has to end
   std::vector<Sensor> sensors;
-  double coverage_radius_m = 100;
-  double initial_energy_j = 22000;  ///< E_max
+  double coverage_radius_m = 100;   ///< R
+  double initial_energy_j = 22000;  ///< E_max, energy on board at the start
   Radio radio;
   Rotor rotor;
   double speed_mps = 25;  ///< V
   Reward reward;
-  std::optional<int> maximum_aoi;  ///< delta_max; none: no cap below T
+  std::optional<int> maximum_aoi;  ///< delta_max, AoI grows no further, slots; none: no limit
 };
 
-/// `count` >= 0 sensors of weight 1, uniform over the whole area of the grid (cells reach half a cell
-/// beyond the outermost centres), a pure function of the seed.
+/// Returns `count` >= 0 sensors of weight 1 at random places, uniform over the whole area of the grid, which
+/// reaches half a cell beyond the centres of the outermost cells. A pure function of its arguments; any
+/// thread may call it.
 std::vector<Sensor> RandomSensors(int columns, int rows, double cell_m, int count, uint64_t seed);
 
 }  // namespace fresco

@@ -11,17 +11,18 @@
 namespace fresco {
 namespace {
 
-// Bounds wide enough for any real device; they keep every derived number finite.
+// These bounds are wide enough for any real device, and they keep every derived number finite.
 constexpr double kSmallest = 1e-6;
 constexpr double kLargest = 1e6;
 constexpr int kMaximumCellsASide = 1000;
-// Cells times sensors: World holds a byte for each, and a network's input up to eight. An actor takes its
-// scenario from the network, so nothing in it may eat the memory.
+// The largest product of cells and sensors. For each pair, World holds one byte and NetworkInput up to eight.
+// An actor receives its scenario from the bus, so no scenario may take too much memory.
 constexpr int64_t kMaximumCellsTimesSensors = 10'000'000;
 constexpr int kMaximumSlots = 10000;  // so that an AoI fits int16_t
-// M / (B tau), bits per second and hertz; the signal-to-noise ratio wanted is two to this power.
+// The largest M / (B tau), bits per second and hertz. The required signal-to-noise ratio grows as two to this
+// power.
 constexpr double kMaximumSpectralEfficiency = 100;
-// Of speed_mps * slot_s against cell_m: decimal fractions may not multiply exactly.
+// How far speed_mps * slot_s may differ from cell_m, since products of decimal fractions are rounded.
 constexpr double kRelativeTolerance = 1e-9;
 
 void CheckCell(std::string_view path, Cell cell, const Scenario& scenario) {

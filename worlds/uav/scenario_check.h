@@ -1,5 +1,5 @@
-// The bounds of a scenario's values, each error naming the field as it is called in the text
-// format. Used by `World` and by the radio formulas; pure.
+// Checks that the values of a scenario are in range. Errors name a field as the text format of configurations
+// does. World and the radio formulas call these. Pure functions; any thread may call them.
 #pragma once
 
 #include <string_view>
@@ -8,19 +8,20 @@
 
 namespace fresco {
 
-/// Of a whole flight's and of a slot's energy: keeps every margin finite as the float that it is on the wire.
+/// The largest initial energy and the largest energy of a slot, joules. It keeps energy margins finite as the
+/// floats that messages carry.
 inline constexpr double kMaximumEnergyJ = 1e12;
 
-/// Throws UsageError "<path>: <value> is out of range; allowed: <low> to <high>" unless the value
-/// is in the closed interval (NaN never is).
+/// Throws UsageError "<path>: <value> is out of range; allowed: <low> to <high>" unless low <= value <= high.
+/// Also throws if the value is NaN.
 void RequireWithin(std::string_view path, double value, double low, double high);
 
-/// Checks the radio's values and slot_s: all finite and in range, and 2^(M / (B tau)) representable.
+/// Throws UsageError if a value of the radio or slot_s is out of range, or if 2^(M / (B tau)) is too large.
 void CheckRadio(const Radio& radio, double slot_s);
 
-/// Checks every value of a scenario, that the UAV's speed takes it one cell a slot, and that the
-/// slots suffice to reach the stop. (World checks the energy, which it derives.) Sensors are
-/// counted from 0 in the error's text, as protobuf does: "scenario.sensor[2].weight".
+/// Throws UsageError if a value of the scenario is out of range, if the UAV's speed does not take it exactly
+/// one cell a slot, or if there are too few slots to reach the stop. (World checks whether the energy
+/// suffices.) Errors count sensors from 0, as Protobuf does: "scenario.sensor[2].weight".
 void CheckScenario(const Scenario& scenario);
 
 }  // namespace fresco

@@ -24,8 +24,8 @@ double RoundTo(double value, double quantum) {
   return std::nearbyint(value / quantum) * quantum;
 }
 
-// Whether the horizontal distance is within R, with a billionth of leeway: a radius that has gone
-// through a transmission power and back covers the same cells.
+// Whether the horizontal distance is at most R, with a tolerance of a billionth, so that a radius converted
+// to a transmission power and back covers the same cells.
 bool Within(double x_m, double y_m, const Sensor& sensor, double radius_m) {
   constexpr double kLeeway = 1 + 1e-9;
   return std::hypot(x_m - sensor.x_m, y_m - sensor.y_m) <= radius_m * kLeeway;
@@ -63,8 +63,8 @@ World::World(Scenario scenario) : scenario_(Checked(std::move(scenario))) {
   }
 }
 
-// Rounds the energies to multiples of one power of two, so large that sums over a whole flight are
-// exact in double, and so small (about 1e-15 of the total) that it is nothing but a rounding.
+// Rounds the energies to multiples of a power of two. It is so large that sums over a whole flight are exact
+// in double, and so small (about 1e-15 of the total) that the rounding has no other effect.
 void World::DeriveEnergies() {
   const double flying_j = PropulsionPower(scenario_.rotor, scenario_.speed_mps) * scenario_.slot_s;
   const double hovering_j = PropulsionPower(scenario_.rotor, 0) * scenario_.slot_s;

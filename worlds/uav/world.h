@@ -1,5 +1,5 @@
-// A checked scenario with everything derived from it once: coverage, energies, distances, action
-// numbering, reachability. Immutable after construction, so any number of threads may share one.
+// A world is a checked scenario with everything that is derived from it: coverage, energies, distances, the
+// numbering of actions, reachability. Immutable after construction, so any number of threads may share one.
 #pragma once
 
 #include <cstdint>
@@ -16,61 +16,63 @@ inline constexpr int kMoves = 5;
 /// "north", "south", "east", "west", "hover".
 const char* MoveName(Move move);
 
-/// v_t and b_t: a move, and the scheduled sensor 1..N or 0 for none (as in the paper).
+/// An action of the paper: a move v_t and a scheduled sensor b_t.
 struct Action {
   Move move = Move::kHover;
-  int schedule = 0;
+  int schedule = 0;  ///< the sensor that transmits, 1 .. N; 0: none
   bool operator==(const Action&) const = default;
 };
 
-/// s_t of the paper as it goes over the wire: small integers and joules, readable as they are.
-/// `aoi` is in slots, one entry a sensor, 1..T (or the cap).
+/// The state s_t of the paper in its natural units, as messages carry it.
 struct State {
-  int slot = 1;               ///< t, 1..T
+  int slot = 1;               ///< t, 1 .. T
   Cell cell;                  ///< o_t
-  int time_margin = 0;        ///< phi_t, in slots; negative: the stop is out of reach in time
-  float energy_margin_j = 0;  ///< Delta_t in joules; negative: the stop is out of reach in energy
-  std::vector<int16_t> aoi;   ///< delta_{n,t}
+  int time_margin = 0;        ///< phi_t, slots; negative: the stop can't be reached in time
+  float energy_margin_j = 0;  ///< Delta_t, joules; negative: the energy does not last to the stop
+  std::vector<int16_t> aoi;   ///< delta_{n,t}, slots, one entry for each sensor, 1 .. T (or maximum_aoi)
 };
 
 class World {
  public:
-  /// Checks every value (finite, in range, start and stop on the grid, the stop reachable in time
-  /// and energy) and throws UsageError naming the scenario's field, the value and what is allowed.
+  /// Throws UsageError if a value is out of range (scenario_check.h) or the stop can't be reached in time and
+  /// energy. The error names the scenario's field, the value and what is allowed.
   explicit World(Scenario scenario);
 
-  /// As given, but for initial_energy_j: see flying_energy_j().
+  /// The scenario as given; only initial_energy_j is rounded, see flying_energy_j().
   const Scenario& scenario() const { return scenario_; }
   int sensors() const { return static_cast<int>(scenario_.sensors.size()); }  ///< N
-  int actions() const { return kMoves * (sensors() + 1); }
-  int maximum_transitions() const { return scenario_.slots - 1; }
+  int actions() const { return kMoves * (sensors() + 1); }                    ///< 5 (N + 1)
+  int maximum_transitions() const { return scenario_.slots - 1; }             ///< of an episode, T - 1
 
-  /// What the world takes of memory beside the object itself.
+  /// The memory of the coverage table and the other derived values, bytes.
   int64_t bytes() const;
 
-  /// theta_n, summing to one.
+  /// The weights theta_n [N], which sum to one.
   std::span<const double> theta() const { return theta_; }
 
-  /// Energy of a slot. These two and the scenario's initial_energy_j are rounded to multiples of one
-  /// power of two, about 1e-15 of the whole flight's energy: sums and differences of them over a
-  /// flight are exact in double, in any order, so no rounding decides what is within reach.
+  /// The energy of a slot of flight and of a hover, joules. These two and initial_energy_j are rounded to
+  /// multiples of a power of two that is about 1e-15 of the whole flight's energy. So sums and differences of
+  /// them over a flight are exact in double, in any order, and rounding never decides whether the stop can be
+  /// reached.
   double flying_energy_j() const { return flying_energy_j_; }      ///< P(V) tau
   double hovering_energy_j() const { return hovering_energy_j_; }  ///< P(0) tau
 
+  /// Numbers the cells row by row, 0 .. columns * rows - 1.
   int CellIndex(Cell cell) const { return cell.row * scenario_.columns + cell.column; }
   bool OnGrid(Cell cell) const;
-  /// The cell after a move; off the grid the UAV stays where it is.
+  /// The cell after a move. A move off the grid leaves the UAV where it is.
   Cell After(Cell cell, Move move) const;
   /// Manhattan distance to the stop, in cells.
   int DistanceToStop(Cell cell) const;
 
-  /// Whether the UAV over `cell` covers sensor n (0-based): horizontal distance <= R.
+  /// Whether the UAV over `cell` covers a sensor: their horizontal distance is at most R. `sensor` is 0 .. N
+  /// - 1.
   bool Covers(Cell cell, int sensor) const {
     return coverage_[static_cast<size_t>(CellIndex(cell)) * static_cast<size_t>(sensors()) +
                      static_cast<size_t>(sensor)] != 0;
   }
 
-  /// action index = move * (N + 1) + schedule.
+  /// The index of an action, 0 .. actions() - 1, is move * (N + 1) + schedule. ActionAt CHECKs the index.
   int ActionIndex(Action action) const {
     return static_cast<int>(action.move) * (sensors() + 1) + action.schedule;
   }
@@ -88,22 +90,25 @@ class World {
   double hovering_energy_j_ = 0;
 };
 
-/// Delta_t: the joules that are left after `slots_left` more moves from `cell` with `remaining_j`
-/// joules on board. With P(V) <= P(0) all of them are counted as flown, as in the paper (a bound: an
-/// odd slack takes a hover more, see CompletionEnergy); otherwise the distance is flown and the slack
-/// hovered. (Where time_margin < 0 the distance is not completed, and every slot left is flown.)
+/// Returns Delta_t: the joules left after `slots_left` more slots from `cell` with `remaining_j` joules on
+/// board. If flying takes no more energy than hovering, P(V) <= P(0), all these slots are counted as flown,
+/// as in the paper. (That is an upper bound: an odd number of spare slots takes a hover, see
+/// CompletionEnergy.) Otherwise the distance to the stop is flown and the spare slots are hovered. If
+/// time_margin < 0, there are no spare slots.
 double EnergyMargin(const World& world, Cell cell, int slots_left, double remaining_j);
 
-/// The joules of the cheapest flight from `cell` to the stop in exactly `slots_left` moves, at least
-/// the distance. Where hovering is the dearer, slack is flown to and fro, two slots at a time, so only
-/// an odd slack takes a hover (on a grid of a single cell there is nowhere to fly, and all of it is
-/// hovered); otherwise the slack is hovered.
+/// Returns the joules of the cheapest flight from `cell` to the stop in exactly `slots_left` slots; CHECKs
+/// that these are at least the distance. If flying takes no less energy than hovering, the spare slots are
+/// hovered. Otherwise they are flown to and fro, two at a time, so only an odd number of them takes one
+/// hover. (On a grid of a single cell there is nowhere to fly, so all of them are hovered.)
 double CompletionEnergy(const World& world, Cell cell, int slots_left);
 
-/// One cell along the axis with the larger distance, columns first at equal ones; hover when there.
+/// Returns the move towards `to` along the axis with the larger distance, along columns if they are equal; a
+/// hover if `from` is `to`.
 Move MoveTowards(Cell from, Cell to);
 
-/// Whether the stop can still be reached from a situation: exactly, in time and in energy.
+/// Whether the stop can still be reached from `cell` in `slots_left` slots with `remaining_j` joules. This is
+/// exact.
 bool CanReachStop(const World& world, Cell cell, int slots_left, double remaining_j);
 
 }  // namespace fresco
