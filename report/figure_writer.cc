@@ -187,7 +187,7 @@ class FigureWriter {
       }
       const std::vector<CsvCell> gap = CellsOf(group.Gap());
       row.insert(row.end(), gap.begin(), gap.end());
-      row.insert(row.end(), {CellOrEmpty(group.LargestGap()), static_cast<int64_t>(group.Gaps().size())});
+      row.push_back(CellOrEmpty(group.LargestGap()));
       rows.push_back(std::move(row));
     }
     WriteCsv(folder_ / fmt::format("{}.csv", figure.file), header, rows);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 namespace fresco {
 namespace {
@@ -40,13 +41,23 @@ bool FlyActions(const World& world, MaskOptions mask_options, std::span<const in
   return false;
 }
 
-bool FollowsFromItsActions(const World& world, MaskOptions mask_options, const Episode& episode) {
-  Episode flown;
-  return FlyActions(world, mask_options, episode.actions, flown) &&
-         flown.transitions() == episode.transitions() && flown.outcome == episode.outcome &&
-         flown.rewards == episode.rewards && flown.next_masks == episode.next_masks &&
-         std::equal(flown.states.begin(), flown.states.end(), episode.states.begin(), episode.states.end(),
-                    SameState);
+bool IsPartOf(const Episode& run, const Episode& episode) {
+  const int first = run.first_transition;
+  const int end = first + run.transitions();
+  if (run.transitions() == 0 || end > episode.transitions()) {
+    return false;
+  }
+  const auto agrees = [](const auto& part, const auto& whole, size_t begin, auto same) {
+    return begin + part.size() <= whole.size() &&
+           std::equal(part.begin(), part.end(), whole.begin() + static_cast<int64_t>(begin), same);
+  };
+  const auto at = static_cast<size_t>(first);
+  const size_t mask_size = episode.next_masks.size() / episode.actions.size();
+  return agrees(run.states, episode.states, at, SameState) &&
+         agrees(run.actions, episode.actions, at, std::equal_to<>()) &&
+         agrees(run.rewards, episode.rewards, at, std::equal_to<>()) &&
+         agrees(run.next_masks, episode.next_masks, at * mask_size, std::equal_to<>()) &&
+         run.outcome == (end == episode.transitions() ? episode.outcome : Outcome::kFlying);
 }
 
 }  // namespace fresco

@@ -8,9 +8,9 @@
 
 namespace fresco {
 
-/// Whether `episode` begins at the start, every state, reward and mask is what the environment gives
-/// for its actions, every action was allowed, and it ends exactly where its last transition ends it.
-bool FollowsFromItsActions(const World& world, MaskOptions mask_options, const Episode& episode);
+/// Whether the transitions of `run` are, to the bit, those at their place in `episode`, and it says of the
+/// outcome what a run there has to say. Temporal-difference errors do not count: they depend on networks, too.
+bool IsPartOf(const Episode& run, const Episode& episode);
 
 /// Flies the first of `actions` until the episode ends. Its order index is 0 and its temporal-difference
 /// errors are 0. Returns false where an action is not allowed or the episode does not end with them.

@@ -1,6 +1,7 @@
 #include "training/ledger.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/check.h"
@@ -10,8 +11,8 @@
 namespace fresco {
 
 int64_t Ledger::BytesFor(const World& world, int64_t orders) {
-  const auto of_entry = static_cast<int64_t>(sizeof(Entry) - sizeof(Episode)) + LongestEpisodeBytes(world) +
-                        HeapBytes(world.maximum_transitions());
+  const int64_t actions = world.maximum_transitions() * static_cast<int64_t>(sizeof(int16_t));
+  const auto of_entry = static_cast<int64_t>(sizeof(Entry)) + LongestEpisodeBytes(world) + HeapBytes(actions);
   return orders * of_entry;
 }
 
@@ -31,83 +32,62 @@ Ledger::Arrival Ledger::Add(const Episode& run) {
     return Arrival::kUnknownOrder;
   }
   Entry& entry = entries_[static_cast<size_t>(run.order_index - committed_)];
-  if (entry.complete) {
+  if (entry.episode || !Keep(run, entry)) {
     return Arrival::kDuplicate;
   }
-  if (entry.received.empty()) {
-    Prepare(entry);
-  }
-  if (!Merge(run, entry)) {
-    return Arrival::kDuplicate;
-  }
-  if (entry.length == 0 || entry.received_count < entry.length) {
-    return Arrival::kAccepted;
-  }
-  Trim(entry);
-  if (!FollowsFromItsActions(*world_, mask_options_, entry.episode)) {
-    const Order order = entry.order;
-    entry = Entry{};
-    entry.order = order;
+  if (entry.kept > 2 * world_->maximum_transitions()) {  // no actor sends so many that overlap
+    entry = {.order = entry.order};
     return Arrival::kInconsistent;
   }
-  entry.complete = true;
-  return Arrival::kCompleted;
-}
-
-void Ledger::Prepare(Entry& entry) const {
-  const auto length = static_cast<size_t>(world_->maximum_transitions());
-  entry.received.assign(length, 0);
-  entry.episode.order_index = entry.order.index;
-  entry.episode.states.resize(length + 1);
-  entry.episode.actions.resize(length);
-  entry.episode.rewards.resize(length);
-  entry.episode.td_errors.resize(length);
-  entry.episode.next_masks.resize(length * static_cast<size_t>(MaskSize(*world_)));
-}
-
-bool Ledger::Merge(const Episode& run, Entry& entry) const {
-  const auto first = static_cast<size_t>(run.first_transition);
-  const auto count = static_cast<size_t>(run.transitions());
-  const auto mask_size = static_cast<size_t>(MaskSize(*world_));
-  bool news = false;
-  for (size_t i = 0; i < count; ++i) {
-    if (entry.received[first + i] == 0) {
-      entry.received[first + i] = 1;
-      ++entry.received_count;
-      news = true;
-    }
+  if (entry.length == 0 || entry.arrived < entry.length) {
+    return Arrival::kAccepted;
   }
-  if (!news) {
+  entry = {.order = entry.order, .episode = FlyAgain(entry)};
+  return entry.episode ? Arrival::kCompleted : Arrival::kInconsistent;
+}
+
+/// Keeps the run if it brings a transition that was not here.
+bool Ledger::Keep(const Episode& run, Entry& entry) const {
+  entry.actions.resize(static_cast<size_t>(world_->maximum_transitions()), kNotHere);
+  const int arrived_before = entry.arrived;
+  auto action = entry.actions.begin() + run.first_transition;
+  for (const int16_t flown : run.actions) {
+    entry.arrived += *action == kNotHere ? 1 : 0;
+    *action++ = flown;
+  }
+  if (entry.arrived == arrived_before) {
     return false;
   }
-  std::copy(run.states.begin(), run.states.end(), entry.episode.states.begin() + run.first_transition);
-  std::copy(run.actions.begin(), run.actions.end(), entry.episode.actions.begin() + run.first_transition);
-  std::copy(run.rewards.begin(), run.rewards.end(), entry.episode.rewards.begin() + run.first_transition);
-  std::copy(run.td_errors.begin(), run.td_errors.end(),
-            entry.episode.td_errors.begin() + run.first_transition);
-  std::copy(run.next_masks.begin(), run.next_masks.end(),
-            entry.episode.next_masks.data() + first * mask_size);
   if (run.outcome != Outcome::kFlying) {
-    entry.length = static_cast<int>(first + count);
-    entry.episode.outcome = run.outcome;
+    entry.length = run.first_transition + run.transitions();
   }
+  entry.kept += run.transitions();
+  entry.runs.push_back(run);
   return true;
 }
 
-void Ledger::Trim(Entry& entry) const {
-  const auto length = static_cast<size_t>(entry.length);
-  entry.episode.states.resize(length + 1);
-  entry.episode.actions.resize(length);
-  entry.episode.rewards.resize(length);
-  entry.episode.td_errors.resize(length);
-  entry.episode.next_masks.resize(length * static_cast<size_t>(MaskSize(*world_)));
+/// The episode of the actions that have arrived; none if a run says anything else than what is flown.
+std::optional<Episode> Ledger::FlyAgain(const Entry& entry) const {
+  Episode flown;
+  const std::span actions(entry.actions.data(), static_cast<size_t>(entry.length));
+  if (!FlyActions(*world_, mask_options_, actions, flown) || flown.transitions() != entry.length) {
+    return std::nullopt;
+  }
+  flown.order_index = entry.order.index;
+  for (const Episode& run : entry.runs) {
+    if (!IsPartOf(run, flown)) {
+      return std::nullopt;
+    }
+    std::copy(run.td_errors.begin(), run.td_errors.end(), flown.td_errors.begin() + run.first_transition);
+  }
+  return flown;
 }
 
 std::optional<CommittedEpisode> Ledger::TakeNext() {
-  if (entries_.empty() || !entries_.front().complete) {
+  if (entries_.empty() || !entries_.front().episode) {
     return std::nullopt;
   }
-  CommittedEpisode next{entries_.front().order, std::move(entries_.front().episode)};
+  CommittedEpisode next{entries_.front().order, *std::move(entries_.front().episode)};
   entries_.pop_front();
   ++committed_;
   return next;

@@ -35,10 +35,12 @@ class Ledger {
     kCompleted,     ///< the order's last missing transitions
     kDuplicate,     ///< nothing new, or an order that is done
     kUnknownOrder,  ///< an order that was never written
-    kInconsistent,  ///< does not follow from its actions in this world; everything of it is dropped
+    kInconsistent,  ///< does not follow from its actions in this world; all runs of the order are dropped
   };
 
-  /// Takes a run of transitions that passed ToEpisodeRun.
+  /// Keeps a run of transitions that passed ToEpisodeRun. When an order's last transition has arrived, the
+  /// episode is flown again from its actions; what is flown is what TakeNext hands out, if every run agrees
+  /// with it.
   Arrival Add(const Episode& run);
 
   /// The episode of the lowest index, where it is whole; it is done then.
@@ -49,22 +51,24 @@ class Ledger {
   /// Orders out, by index from committed() on.
   int64_t in_flight() const { return static_cast<int64_t>(entries_.size()); }
   const Order& order(int64_t index) const { return entry(index).order; }
-  bool IsComplete(int64_t index) const { return entry(index).complete; }
+  bool IsComplete(int64_t index) const { return entry(index).episode.has_value(); }
 
  private:
+  /// An order that is out, and what of its result has arrived.
   struct Entry {
     Order order;
-    Episode episode;                // sized for the longest episode while it is assembled
-    std::vector<uint8_t> received;  // by transition
-    int received_count = 0;
-    int length = 0;  // transitions; 0 while the run that ends the episode has not arrived
-    bool complete = false;
+    std::vector<Episode> runs = {};     // as they came; none once the episode is complete
+    std::vector<int16_t> actions = {};  // by transition; kNotHere if it has not arrived
+    int arrived = 0;                    // transitions
+    int kept = 0;                       // transitions of all runs; more if these overlap
+    int length = 0;                     // of the episode; 0 before the run that ends it has arrived
+    std::optional<Episode> episode = {};  // once it is complete: flown again from its actions
   };
+  static constexpr int16_t kNotHere = -1;
 
   const Entry& entry(int64_t index) const { return entries_[static_cast<size_t>(index - committed_)]; }
-  void Prepare(Entry& entry) const;
-  bool Merge(const Episode& run, Entry& entry) const;
-  void Trim(Entry& entry) const;
+  bool Keep(const Episode& run, Entry& entry) const;
+  std::optional<Episode> FlyAgain(const Entry& entry) const;
 
   const World* world_;
   MaskOptions mask_options_;

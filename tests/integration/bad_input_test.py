@@ -190,7 +190,7 @@ class BadInput(FrescoTest):
             config.write_text("")
             arguments = [part for setting in settings for part in ("--set", setting)]
             words = words + ["GB of memory are needed and", "are available (", "Lower "]
-            self.refuse(words, "--config", config, *arguments)
+            self.refuse(words, "train", "--config", config, *arguments)
             self.assertFalse((self.folder / "out").exists())
             if "run.actors=1024" not in settings:  # the learner by itself takes no actors with it
                 output, errors = self.run_fresco("--config", config, "--out", self.folder / "out", *arguments,

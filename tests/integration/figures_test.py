@@ -67,7 +67,7 @@ class Figures(FrescoTest):
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1, errors)
-        self.assertIn("goes on", errors)
+        self.assertIn("continues the study", errors)
         self.assertEqual(processes_with(":17331"), [])
         complete = {path: path.stat().st_mtime_ns for path in runs_folder.glob("*/summary.json")
                     if '"completed": true' in path.read_text()

@@ -56,7 +56,7 @@ TEST(Excesses, AllowAQuarterAndTheAllowanceAndFourDescriptors) {
   EXPECT_TRUE(Excesses(usual, {}, kAllowanceKib).empty());
   const auto memory = Excesses(usual, Use(133 * 1024 + 1, 21), kAllowanceKib);
   ASSERT_EQ(memory.size(), 1u);
-  EXPECT_NE(memory[0].find("fresco-learner: 133 MiB"), std::string::npos) << memory[0];
+  EXPECT_NE(memory[0].find("fresco-learner: peak memory 133 MiB"), std::string::npos) << memory[0];
   EXPECT_EQ(Excesses(usual, Use(133 * 1024 + 1, 21), kAllowanceKib + 1).size(), 0u);
   const auto descriptors = Excesses(usual, Use(133 * 1024, 22), kAllowanceKib);
   ASSERT_EQ(descriptors.size(), 1u);

@@ -29,7 +29,9 @@ class EpisodeCheck : public ::testing::Test {
   }
 
   bool Accepts(const Episode& episode) const {
-    return FollowsFromItsActions(world_, experiment_.mask_options(), episode);
+    Episode flown;
+    return FlyActions(world_, experiment_.mask_options(), episode.actions, flown) &&
+           flown.transitions() == episode.transitions() && IsPartOf(episode, flown);
   }
 
   /// `change` is applied to a copy of the flown episode.
@@ -55,6 +57,19 @@ TEST_F(EpisodeCheck, AcceptsFlownEpisodes) {
     EXPECT_EQ(episode.outcome, Outcome::kArrived);
     EXPECT_TRUE(Accepts(episode)) << seed;
   }
+}
+
+TEST_F(EpisodeCheck, AcceptsEveryPartOfAnEpisodeAtItsPlaceAlone) {
+  const int transitions = episode_.transitions();
+  for (int first = 0; first < transitions; ++first) {
+    for (int count = 1; first + count <= transitions; ++count) {
+      Episode part = PartOf(world_, episode_, first, count);
+      EXPECT_TRUE(IsPartOf(part, episode_)) << first << " " << count;
+      part.first_transition += first + count < transitions ? 1 : -1;
+      EXPECT_FALSE(IsPartOf(part, episode_)) << first << " " << count;
+    }
+  }
+  EXPECT_FALSE(IsPartOf(Episode{}, episode_));
 }
 
 TEST_F(EpisodeCheckWithoutMasks, AcceptsFlownEpisodesThatEndEarly) {

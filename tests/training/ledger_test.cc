@@ -21,23 +21,6 @@ bool SameEpisode(const Episode& a, const Episode& b) {
          std::equal(a.states.begin(), a.states.end(), b.states.begin(), b.states.end(), same_state);
 }
 
-/// Transitions [first, first + count) of an episode.
-Episode RunOf(const World& world, const Episode& episode, int first, int count) {
-  Episode run;
-  const auto part = [&](const auto& from, auto& to, int extra, int scale) {
-    to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
-  };
-  run.order_index = episode.order_index;
-  run.first_transition = first;
-  run.outcome = first + count == episode.transitions() ? episode.outcome : Outcome::kFlying;
-  part(episode.states, run.states, 1, 1);
-  part(episode.actions, run.actions, 0, 1);
-  part(episode.rewards, run.rewards, 0, 1);
-  part(episode.td_errors, run.td_errors, 0, 1);
-  part(episode.next_masks, run.next_masks, 0, MaskSize(world));
-  return run;
-}
-
 class LedgerTest : public ::testing::Test {
  protected:
   LedgerTest()
@@ -54,7 +37,7 @@ class LedgerTest : public ::testing::Test {
       episodes_.push_back(FlyOrder(world_, experiment_, order, parameters, parameters));
       for (int first = 0; first < episodes_.back().transitions(); first += 5) {
         runs_.push_back(
-            RunOf(world_, episodes_.back(), first, std::min(5, episodes_.back().transitions() - first)));
+            PartOf(world_, episodes_.back(), first, std::min(5, episodes_.back().transitions() - first)));
       }
     }
   }
@@ -100,6 +83,27 @@ TEST_F(LedgerTest, SaysWhatARunBrought) {
   Episode unknown = episodes_[0];
   unknown.order_index = kOrders;
   EXPECT_EQ(ledger_.Add(unknown), Ledger::Arrival::kUnknownOrder);
+}
+
+TEST_F(LedgerTest, TakesRunsThatOverlapAsLongAsTheyAgree) {
+  EXPECT_EQ(ledger_.Add(PartOf(world_, episodes_[0], 2, 6)), Ledger::Arrival::kAccepted);
+  EXPECT_EQ(ledger_.Add(PartOf(world_, episodes_[0], 0, 5)), Ledger::Arrival::kAccepted);
+  EXPECT_EQ(ledger_.Add(PartOf(world_, episodes_[0], 3, 4)), Ledger::Arrival::kDuplicate);
+  EXPECT_EQ(ledger_.Add(PartOf(world_, episodes_[0], 7, 6)), Ledger::Arrival::kCompleted);
+  EXPECT_TRUE(SameEpisode(ledger_.TakeNext()->episode, episodes_[0]));
+}
+
+TEST_F(LedgerTest, KeepsNoMoreThanTwoEpisodesForAnOrder) {
+  Ledger::Arrival arrival = Ledger::Arrival::kAccepted;
+  int kept = 0;
+  for (int last = 1; arrival == Ledger::Arrival::kAccepted; ++last) {  // each brings one transition more
+    kept += last;
+    arrival = ledger_.Add(PartOf(world_, episodes_[0], 0, last));
+  }
+  EXPECT_EQ(arrival, Ledger::Arrival::kInconsistent);
+  EXPECT_GT(kept, 2 * world_.maximum_transitions());
+  EXPECT_LT(kept, 3 * world_.maximum_transitions());
+  EXPECT_EQ(ledger_.Add(episodes_[0]), Ledger::Arrival::kCompleted);
 }
 
 TEST_F(LedgerTest, RefusesWhatDoesNotFollowFromItsActionsAndTakesItRightLater) {

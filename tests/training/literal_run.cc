@@ -64,4 +64,20 @@ RunResult RunInOneLoop(const Experiment& experiment) {
   return result;
 }
 
+Episode PartOf(const World& world, const Episode& episode, int first, int count) {
+  Episode run;
+  const auto part = [&](const auto& from, auto& to, int extra, int scale) {
+    to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
+  };
+  run.order_index = episode.order_index;
+  run.first_transition = first;
+  run.outcome = first + count == episode.transitions() ? episode.outcome : Outcome::kFlying;
+  part(episode.states, run.states, 1, 1);
+  part(episode.actions, run.actions, 0, 1);
+  part(episode.rewards, run.rewards, 0, 1);
+  part(episode.td_errors, run.td_errors, 0, 1);
+  part(episode.next_masks, run.next_masks, 0, MaskSize(world));
+  return run;
+}
+
 }  // namespace fresco

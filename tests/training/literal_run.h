@@ -27,4 +27,7 @@ struct RunResult {
 /// Trainer and flyer in one loop: the reference that every distributed run must equal.
 RunResult RunInOneLoop(const Experiment& experiment);
 
+/// Transitions [first, first + count) of an episode, as a message carries them.
+Episode PartOf(const World& world, const Episode& episode, int first, int count);
+
 }  // namespace fresco
