@@ -77,10 +77,11 @@ LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string&
     known += fmt::format("\n  {} (configuration {:08x}, {} messages of transitions)", RunIdText(run),
                          run.identity.config_hash, run.transitions_messages);
   }
-  throw UsageError(runs.empty() ? "the log contains no run of Fresco"
-                   : run_id.empty()
-                       ? fmt::format("the log contains several runs; name one with --run ID:{}", known)
-                       : fmt::format("--run: the log contains no run {}; it contains{}", run_id, known));
+  throw UsageError(
+      runs.empty() ? "the log contains no run of Fresco"
+      : run_id.empty()
+          ? fmt::format("the log contains several runs; name one with --run ID:{}", known)
+          : fmt::format("--run: the log does not contain run {}, but it contains{}", run_id, known));
 }
 
 void ExpectOrdersOfThisRelease(const LoggedRun& run) {

@@ -72,9 +72,9 @@ std::vector<std::string> Excesses(const UseByProgram& undisturbed, const UseByPr
     const ProcessUse& usual = before->second;
     const int64_t memory_limit_kib = usual.peak_kib + usual.peak_kib / 4 + memory_allowance_kib;
     if (use.peak_kib > memory_limit_kib) {
-      excesses.push_back(
-          fmt::format("{}: {:.0f} MiB of peak memory, {:.0f} MiB undisturbed, {:.0f} MiB allowed", program,
-                      ToMib(use.peak_kib), ToMib(usual.peak_kib), ToMib(memory_limit_kib)));
+      excesses.push_back(fmt::format("{}: peak memory {:.0f} MiB, {:.0f} MiB undisturbed, {:.0f} MiB allowed",
+                                     program, ToMib(use.peak_kib), ToMib(usual.peak_kib),
+                                     ToMib(memory_limit_kib)));
     }
     if (use.descriptors > usual.descriptors + kMoreDescriptors) {
       excesses.push_back(fmt::format("{}: {} open descriptors at most, {} undisturbed, {} allowed", program,
