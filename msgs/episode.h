@@ -41,8 +41,8 @@ void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
 /// Transitions that fit one message for this many sensors; at least 1 for up to kMaximumSensors.
 int TransitionsPerMessage(int sensors);
 
-/// Splits a whole episode into messages, each of which fits one frame, and calls `send` with each in their order.
-/// They have no run and no time yet (MessageBus::Publish).
+/// Splits a whole episode into messages, each of which fits one frame, and calls `send` with each in their
+/// order. They have no run and no time yet (MessageBus::Publish).
 void SplitEpisode(const World& world, const Episode& episode, int64_t actor_id,
                   const std::function<void(const transitions_t&)>& send);
 

@@ -1,8 +1,8 @@
-// Fresco's messages over a bus. What is sent gets its run and the time and is encoded; what arrives is decoded.
-// What does not decode is counted, and whether it is for want of a key is known.
+// Fresco's messages over a bus. What is sent gets its run and the time and is encoded; what arrives is
+// decoded. What does not decode is counted, and whether it is for want of a key is known.
 //
-// Threads: Publish from any thread; Subscribe and the handlers on the thread that polls the bus; the counters from
-// any thread.
+// Threads: Publish from any thread; Subscribe and the handlers on the thread that polls the bus; the counters
+// from any thread.
 #pragma once
 
 #include <atomic>

@@ -92,9 +92,9 @@ void Encode(const Message& message, std::vector<std::byte>& bytes) {
   AppendTrailer(message.encode(bytes.data(), 0, static_cast<int>(bytes.size())), bytes);
 }
 
-/// Calls visit(const char* name, const auto& value) for every field of a message, or of an order_t or chunk_range_t
-/// in one, in the order of its .lcm file. Values are numbers, texts, vectors of these or of order_t and
-/// chunk_range_t, and vectors of vectors.
+/// Calls visit(const char* name, const auto& value) for every field of a message, or of an order_t or
+/// chunk_range_t in one, in the order of its .lcm file. Values are numbers, texts, vectors of these or of
+/// order_t and chunk_range_t, and vectors of vectors.
 template <class Message, class Visitor>
 void ForEachField(const Message& message, Visitor&& visit) {
   Description<Message>::ForEachField(message, visit);

@@ -9,7 +9,8 @@
 namespace fresco {
 
 /// Whether the transitions of `run` are, to the bit, those at their place in `episode`, and it says of the
-/// outcome what a run there has to say. Temporal-difference errors do not count: they depend on networks, too.
+/// outcome what a run there has to say. Temporal-difference errors do not count: they depend on networks,
+/// too.
 bool IsPartOf(const Episode& run, const Episode& episode);
 
 /// Flies the first of `actions` until the episode ends. Its order index is 0 and its temporal-difference

@@ -57,11 +57,11 @@ class Ledger {
   /// An order that is out, and what of its result has arrived.
   struct Entry {
     Order order;
-    std::vector<Episode> runs = {};     // as they came; none once the episode is complete
-    std::vector<int16_t> actions = {};  // by transition; kNotHere if it has not arrived
-    int arrived = 0;                    // transitions
-    int kept = 0;                       // transitions of all runs; more if these overlap
-    int length = 0;                     // of the episode; 0 before the run that ends it has arrived
+    std::vector<Episode> runs = {};       // as they came; none once the episode is complete
+    std::vector<int16_t> actions = {};    // by transition; kNotHere if it has not arrived
+    int arrived = 0;                      // transitions
+    int kept = 0;                         // transitions of all runs; more if these overlap
+    int length = 0;                       // of the episode; 0 before the run that ends it has arrived
     std::optional<Episode> episode = {};  // once it is complete: flown again from its actions
   };
   static constexpr int16_t kNotHere = -1;

@@ -65,7 +65,8 @@ TEST(NetworkStore, AsksForAllOfAVersionOfWhichNothingCameSinceItWasWanted) {
   store.SetWanted({kCurrent7, kTarget2});
   EXPECT_TRUE(store.MissingRanges(10'000).empty());
   EXPECT_TRUE(store.MissingRanges(10'000 + kQuietVersionUs - 1).empty());
-  EXPECT_EQ(Plain(store.MissingRanges(10'000 + kQuietVersionUs)), (Ranges{{0, 7, 0, kChunks}, {1, 2, 0, kChunks}}));
+  EXPECT_EQ(Plain(store.MissingRanges(10'000 + kQuietVersionUs)),
+            (Ranges{{0, 7, 0, kChunks}, {1, 2, 0, kChunks}}));
   store.SetWanted({kTarget2});
   EXPECT_EQ(Plain(store.MissingRanges(20'000)), (Ranges{{1, 2, 0, kChunks}}));
   store.SetWanted({kCurrent7});  // wanted again: quiet time begins again

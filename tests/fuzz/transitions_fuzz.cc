@@ -76,7 +76,8 @@ void CheckAll(std::span<const std::byte> input) {
   while (const auto committed = ledger.TakeNext()) {
     CheckRun(world, committed->episode);
     Episode flown;
-    FRESCO_CHECK(FlyActions(world, {}, committed->episode.actions, flown) && IsPartOf(committed->episode, flown));
+    FRESCO_CHECK(FlyActions(world, {}, committed->episode.actions, flown) &&
+                 IsPartOf(committed->episode, flown));
   }
 }
 

@@ -186,7 +186,8 @@ TEST_F(LoggedEpisodesTest, FindsTheRunsOfALogAndTheirConfiguration) {
   EXPECT_THAT([&] { ChooseLoggedRun(runs, ""); },
               ThrowsMessage<Error>(testing::AllOf(HasSubstr("--run"), HasSubstr("000000000000004d"),
                                                   HasSubstr("000000000000004e"))));
-  EXPECT_THAT([&] { ChooseLoggedRun(runs, "4f"); }, ThrowsMessage<Error>(HasSubstr("does not contain run 4f")));
+  EXPECT_THAT([&] { ChooseLoggedRun(runs, "4f"); },
+              ThrowsMessage<Error>(HasSubstr("does not contain run 4f")));
   EXPECT_THAT([] { ChooseLoggedRun({}, ""); }, ThrowsMessage<Error>(HasSubstr("no run of Fresco")));
 }
 

@@ -1,5 +1,5 @@
-// What is sent arrives as it was, with its run and the time; what does not decode is counted; and a program that
-// has another key than the others, or none, or a key that they have not, learns why it hears nothing.
+// What is sent arrives as it was, with its run and the time; what does not decode is counted; and a program
+// that has another key than the others, or none, or a key that they have not, learns why it hears nothing.
 #include "msgs/message_bus.h"
 
 #include <gmock/gmock.h>

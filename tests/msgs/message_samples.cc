@@ -186,7 +186,8 @@ void Randomise(RandomStream& stream, scenario_t& message) {
   message = ScenarioOf(stream, Below(stream, kMaximumSensorsPerScenario + 1));
 }
 void Randomise(RandomStream& stream, flight_t& message) {
-  message = FlightOf(stream, Below(stream, flight_t::MAXIMUM_SENSOR_COUNT + 1), Below(stream, kMaximumPolicyBytes + 1));
+  message = FlightOf(stream, Below(stream, flight_t::MAXIMUM_SENSOR_COUNT + 1),
+                     Below(stream, kMaximumPolicyBytes + 1));
 }
 
 }  // namespace fresco

@@ -1,5 +1,6 @@
 // All flights of a tiny scenario, tried one move and one transmission at a time: what the exact planner
-// and its parts are held against. Written from docs/paper.md; shares nothing with worlds/uav/ but plain structs.
+// and its parts are held against. Written from docs/paper.md; shares nothing with worlds/uav/ but plain
+// structs.
 #pragma once
 
 #include <cstdint>

@@ -148,8 +148,8 @@ TEST(TrainerOrders, EvaluateBesideTheNextTrainingOrderOnceFourVersionsMoreAreThe
 TEST(TrainerOrders, AreTheSameForTrainingHoweverManyEvaluationsStandBesideThem) {
   RecordedRun usual;
   usual.Finish();
-  // At most one evaluation an episode, and the final one: 371 updates make 53 versions, of which an episode of 6
-  // or 7 updates makes one at most.
+  // At most one evaluation an episode, and the final one: 371 updates make 53 versions, of which an episode
+  // of 6 or 7 updates makes one at most.
   for (const auto& [versions_per_evaluation, evaluations] :
        {std::pair("1", 53u + 1), std::pair("2", 26u + 1), std::pair("1000000", 1u)}) {
     RecordedRun run(Settings{{"schedule.versions_per_evaluation", versions_per_evaluation}});

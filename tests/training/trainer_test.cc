@@ -102,9 +102,8 @@ class LiteralTraining {
   uint32_t updates_ = 0;
 };
 
-TEST(Trainer, TrainsAsTheLiteralLoopDoes) {
-  RecordedRun run;
-  LiteralTraining literal(run);
+/// Trains to the end, episode by episode beside the literal loop.
+void ExpectTheWeightsOf(LiteralTraining literal, RecordedRun& run) {
   while (!run.trainer.finished()) {
     const OrderKind kind = run.next().kind;
     run.Commit(run.Fly(run.next()));
@@ -113,33 +112,26 @@ TEST(Trainer, TrainsAsTheLiteralLoopDoes) {
     }
     ASSERT_TRUE(run.trainer.current() == literal.weights()) << "after order " << run.episodes.size() - 1;
   }
+}
+
+TEST(Trainer, TrainsAsTheLiteralLoopDoes) {
+  RecordedRun run;
+  ExpectTheWeightsOf(LiteralTraining(run), run);
 }
 
 TEST(Trainer, TrainsOnWhatTheNetworkSeesAsTheLiteralLoopDoes) {
   RecordedRun run(Settings{{"agent.sensor_geometry", "true"}, {"schedule.excursion_share", "0.5"}});
-  LiteralTraining literal(run);
-  while (!run.trainer.finished()) {
-    const OrderKind kind = run.next().kind;
-    run.Commit(run.Fly(run.next()));
-    if (kind == OrderKind::kTrain) {
-      literal.Take(run.episodes.back());
-    }
-    ASSERT_TRUE(run.trainer.current() == literal.weights()) << "after order " << run.episodes.size() - 1;
-  }
+  ExpectTheWeightsOf(LiteralTraining(run), run);
 }
 
 TEST(Trainer, BoundsTargetsByWhatWasFlownAsTheLiteralLoopDoes) {
   RecordedRun run(Settings{{"agent.flown_return_bound", "true"}});
-  LiteralTraining literal(run, true);
+  ExpectTheWeightsOf(LiteralTraining(run, true), run);
   LiteralTraining without(run);
-  while (!run.trainer.finished()) {
-    const OrderKind kind = run.next().kind;
-    run.Commit(run.Fly(run.next()));
-    if (kind == OrderKind::kTrain) {
-      literal.Take(run.episodes.back());
-      without.Take(run.episodes.back());
+  for (size_t index = 0; index < run.episodes.size(); ++index) {
+    if (run.orders[index].kind == OrderKind::kTrain) {
+      without.Take(run.episodes[index]);
     }
-    ASSERT_TRUE(run.trainer.current() == literal.weights()) << "after order " << run.episodes.size() - 1;
   }
   EXPECT_GT((run.trainer.current() - without.weights()).cwiseAbs().maxCoeff(), 1e-2f);
 }
