@@ -21,8 +21,8 @@ class Silence(FrescoTest):
         self.assertIn("train --resume", errors)
         self.assertTrue(list((self.folder / "alone" / "checkpoints").glob("*.checkpoint")))
         log = (self.folder / "alone" / "learner.log").read_text()
-        self.assertIn("giving up: 3 s without a result (run.patience_s), waiting for an actor to join", log)
-        self.assertIn("giving up: 3 s without a result", errors)
+        self.assertIn("giving up: no result for 3 s (run.patience_s), waiting for an actor to join", log)
+        self.assertIn("giving up: no result for 3 s", errors)
 
     def test_gives_up_without_waiting_for_a_long_search_for_the_optimum(self):
         config = self.folder / "many_sensors.textproto"
@@ -41,7 +41,7 @@ class Silence(FrescoTest):
         actor.communicate()
         _, errors = learner.communicate(timeout=60)
         self.assertEqual(learner.returncode, 1, errors)
-        self.assertRegex(errors, r"giving up: 3 s without a result .*, waiting for an actor: .* was last heard of 3\.\d s ago")
+        self.assertRegex(errors, r"giving up: no result for 3 s .*, waiting for an actor: .* was last heard of 3\.\d s ago")
         output, _ = self.run_fresco("train", "--resume", self.folder / "left", "--actors", 2, "--format", "json")
         self.assertEqual(json.loads(output)["weights_crc32c"], undisturbed["weights_crc32c"])
 
