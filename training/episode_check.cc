@@ -44,7 +44,7 @@ bool FlyActions(const World& world, MaskOptions mask_options, std::span<const in
 bool IsPartOf(const Episode& run, const Episode& episode) {
   const int first = run.first_transition;
   const int end = first + run.transitions();
-  if (run.transitions() == 0 || end > episode.transitions()) {
+  if (first < 0 || run.transitions() == 0 || end > episode.transitions()) {
     return false;
   }
   const auto agrees = [](const auto& part, const auto& whole, size_t begin, auto same) {
