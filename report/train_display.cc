@@ -8,7 +8,7 @@
 
 #include "storage/flown_policy.h"
 #include "storage/optimum_search.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 namespace {
