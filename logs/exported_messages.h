@@ -1,6 +1,6 @@
-// Turns values of messages into cells of tables, in the same way for JSON and CSV. Identifiers become
-// hexadecimal digits, as in summary.json. Numbers get the fewest digits that read back as the same bits. Pure
-// functions; any thread may call them.
+// Turns messages into what people and other programs read: rows of tables and lines of JSON, in the same way
+// for both. Identifiers become hexadecimal digits, as in summary.json. Numbers get the fewest digits that
+// read back as the same bits. Pure functions; any thread may call them.
 #pragma once
 
 #include <concepts>
@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "bus/lcm_event.h"
 #include "core/csv.h"
+#include "msgs/message_decoder.h"
 #include "msgs/wire.h"
 
 namespace fresco {
@@ -38,5 +40,13 @@ NamedRow StatusRow(const learner_status_t& status);
 /// a, r, the temporal-difference error, s' and the actions allowed in s'. Returns false, without a row, if
 /// the message's counts contradict each other.
 bool ForEachTransitionRow(const transitions_t& message, const std::function<void(const NamedRow&)>& handle);
+
+/// Returns a row as a JSON object in one line, without a line feed. NaN becomes null.
+std::string RowJson(const NamedRow& row);
+
+/// Returns an event as the JSON object {"utime", "channel", "type", "message": {every field}} in one line,
+/// without a line feed. If the message is damaged or not Fresco's (then the type is null), the object has the
+/// message's size in bytes and its first eight bytes instead of its fields.
+std::string EventJson(const LcmEvent& event, MessageDecoder& decoder);
 
 }  // namespace fresco

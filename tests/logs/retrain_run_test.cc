@@ -1,5 +1,5 @@
 // What a retraining says of its logs.
-#include "logs/retrain_report.h"
+#include "logs/retrain_run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ RetrainReport Report() {
 TEST(RetrainReport, NamesOrdersAsRanges) {
   EXPECT_EQ(RangesText({{3, 3}}), "3 (1 order in all)");
   EXPECT_EQ(RangesText({{3, 3}, {17, 20}}), "3, 17 to 20 (5 orders in all)");
-  std::vector<std::pair<int64_t, int64_t>> many;
+  std::vector<Interval> many;
   for (int64_t i = 0; i < 100; ++i) {
-    many.emplace_back(2 * i, 2 * i);
+    many.push_back({2 * i, 2 * i});
   }
   EXPECT_THAT(RangesText(many), HasSubstr(", 22 and 88 more ranges (100 orders in all)"));
 }

@@ -1,11 +1,12 @@
-// Numbers and rows of exported tables.
-#include "logs/message_cells.h"
+// Numbers and rows of exported tables, and events as JSON.
+#include "logs/exported_messages.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "tests/msgs/message_samples.h"
 
@@ -67,6 +68,28 @@ TEST(ForEachTransitionRow, RefusesCountsThatContradictOneAnother) {
   message.state_count = 2;
   message.column.resize(2);
   EXPECT_FALSE(ForEachTransitionRow(message, [](const NamedRow&) { FAIL(); }));
+}
+
+TEST(EventJson, ShowsEveryKindOfEvent) {
+  MessageDecoder decoder;
+  RandomStream stream(2, RandomPurpose::kTest, 3, 0);
+  transitions_t message = TransitionsOf(stream, 2, 3);
+  Stamp(message, {0x123456789abcdef0, 0xcafe0001}, 1);
+  message.order_index = 3;
+  const auto bytes = Encoded(message);
+  auto json = nlohmann::json::parse(EventJson({0, 5, "FRESCO_TRANSITIONS", bytes}, decoder));
+  EXPECT_EQ(json["type"], "transitions_t");
+  EXPECT_EQ(json["message"]["run_id"], "123456789abcdef0");
+  EXPECT_EQ(json["message"]["order_index"], 3);
+  EXPECT_EQ(json["message"]["aoi"].size(), 3u);
+  json = nlohmann::json::parse(EventJson({0, 5, "FRESCO_TRANSITIONS", std::span(bytes).first(99)}, decoder));
+  EXPECT_EQ(json["type"], "transitions_t");
+  EXPECT_EQ(json["damaged"], true);
+  EXPECT_EQ(json["bytes"], 99);
+  const std::vector<std::byte> foreign(9, std::byte{0xff});
+  json = nlohmann::json::parse(EventJson({0, 5, "\xff", foreign}, decoder));
+  EXPECT_EQ(json["type"], nullptr);
+  EXPECT_EQ(json["fingerprint"], "ffffffffffffffff");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A socket that nobody reads, and what does not fit it.
-#include "logs/socket_drops.h"
+#include "logs/bus_losses.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

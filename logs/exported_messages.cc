@@ -1,17 +1,21 @@
-#include "logs/message_cells.h"
+#include "logs/exported_messages.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "msgs/wire.h"
+#include "core/identifier.h"
+#include "msgs/message_peek.h"
 #include "worlds/uav/environment.h"
 #include "worlds/uav/world.h"
 
 namespace fresco {
 namespace {
+
+using OrderedJson = nlohmann::ordered_json;
 
 template <class Message>
 NamedRow RowOf(const Message& message) {
@@ -76,11 +80,59 @@ NamedRow TransitionRow(const transitions_t& message, size_t i) {
   return row;
 }
 
+template <class Message>
+OrderedJson JsonOf(const Message& message);
+
+OrderedJson JsonOfCell(const CsvCell& cell) {
+  return std::visit([](const auto& value) { return OrderedJson(value); }, cell);
+}
+
+template <class Value>
+OrderedJson JsonOfField(const char* name, const Value& value) {
+  if constexpr (requires { CellOf(name, value); }) {
+    return JsonOfCell(CellOf(name, value));
+  } else if constexpr (requires { value.begin(); }) {
+    OrderedJson list = OrderedJson::array();
+    for (const auto& element : value) {
+      list.push_back(JsonOfField(name, element));
+    }
+    return list;
+  } else {
+    return JsonOf(value);
+  }
+}
+
+template <class Message>
+OrderedJson JsonOf(const Message& message) {
+  OrderedJson json = OrderedJson::object();
+  ForEachField(message, [&json](const char* name, const auto& value) {
+    if constexpr (std::is_same_v<decltype(value), const std::vector<uint8_t>&>) {  // part of a text
+      json[name] = std::string(value.begin(), value.end());
+    } else {
+      json[name] = JsonOfField(name, value);
+    }
+  });
+  return json;
+}
+
+/// Returns the JSON in one line. Bytes of texts that are not UTF-8 become replacement characters.
+std::string Line(const OrderedJson& json) {
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+std::string FirstBytes(std::span<const std::byte> bytes) {
+  std::string digits;
+  for (const std::byte byte : bytes.first(std::min<size_t>(bytes.size(), 8))) {
+    digits += fmt::format("{:02x}", std::to_integer<int>(byte));
+  }
+  return digits;
+}
+
 }  // namespace
 
 CsvCell CellOf(std::string_view field, int64_t value) {
   if (field == "run_id") {
-    return fmt::format("{:016x}", static_cast<uint64_t>(value));
+    return IdentifierText(value);
   }
   if (field == "config_hash" || field == "crc32c" || field == "arithmetic_fingerprint") {
     return fmt::format("{:08x}", static_cast<uint64_t>(value));
@@ -119,6 +171,31 @@ bool ForEachTransitionRow(const transitions_t& message, const std::function<void
     handle(TransitionRow(message, i));
   }
   return true;
+}
+
+std::string RowJson(const NamedRow& row) {
+  OrderedJson json = OrderedJson::object();
+  for (const auto& [name, cell] : row) {
+    json[name] = JsonOfCell(cell);
+  }
+  return Line(json);
+}
+
+std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
+  OrderedJson json = {{"utime", event.utime}, {"channel", event.channel}, {"type", nullptr}};
+  const auto result = decoder.Decode(event.message, [&json](const auto& message) {
+    json["type"] = message.getTypeName();
+    json["message"] = JsonOf(message);
+  });
+  if (result != MessageDecoder::Result::kDecoded) {
+    if (result == MessageDecoder::Result::kDamaged) {
+      json["type"] = PeekType(event.message);
+      json["damaged"] = true;
+    }
+    json["bytes"] = event.message.size();
+    json["fingerprint"] = FirstBytes(event.message);
+  }
+  return Line(json);
 }
 
 }  // namespace fresco
