@@ -55,9 +55,8 @@ class LogSummary {
   void Take(const LcmEvent& event);
 
   int64_t events() const { return events_; }
-  /// Times of the first and the last event, microseconds since the epoch; 0 if there is none.
+  /// Time of the first event, microseconds since the epoch; 0 if there is none.
   int64_t begin_utime() const { return begin_utime_; }
-  int64_t end_utime() const { return end_utime_; }
   double duration_s() const { return 1e-6 * static_cast<double>(end_utime_ - begin_utime_); }
   const std::map<std::string, ChannelTraffic, std::less<>>& channels() const { return channels_; }
   const std::map<int64_t, RunTraffic>& runs() const { return runs_; }

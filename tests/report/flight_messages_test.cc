@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/flight_json.h"
+#include "report/result_display.h"
 #include "tests/worlds/test_scenarios.h"
 
 namespace fresco {

@@ -1,5 +1,5 @@
 // What a person reads while a run is going and when it is over.
-#include "report/train_display.h"
+#include "report/result_display.h"
 
 #include <gtest/gtest.h>
 

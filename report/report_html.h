@@ -1,9 +1,12 @@
-// Escapes texts and data for an HTML page, and fills templates. Pure functions; any thread may call them.
+// Makes the parts of the report page: escaped texts and data, filled templates, tables. Pure functions; any
+// thread may call them.
 #pragma once
 
 #include <map>
 #include <string>
 #include <string_view>
+
+#include "report/report.h"
 
 namespace fresco {
 
@@ -20,5 +23,9 @@ std::string PercentEncoded(std::string_view text);
 /// Returns the page with every {{name}} replaced by the part of that name; CHECKs that there is one. A
 /// {{name}} inside a part is not replaced.
 std::string FilledTemplate(std::string_view page, const std::map<std::string_view, std::string>& parts);
+
+/// Returns the table's HTML. Columns of numbers are aligned at the right. If the table is too wide, it can be
+/// scrolled.
+std::string TableHtml(const ReportTable& table);
 
 }  // namespace fresco

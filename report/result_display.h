@@ -1,11 +1,13 @@
-// Makes the texts that `train` shows of a run: a line of progress, and a table at the end. Pure functions;
-// any thread may call them.
+// Makes the texts that commands show of runs and flights: a line of progress, a table of results, a flight as
+// JSON. Pure functions; any thread may call them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "msgs/wire.h"
+#include "planner/planner.h"
 
 namespace fresco {
 
@@ -26,5 +28,12 @@ std::string OptimumNote(const std::string& summary_json);
 
 /// Returns the final table of a run, followed by the note, from a summary's JSON.
 std::string ResultTable(const std::string& summary_json);
+
+/// Returns an object with policy, arrived, outcome, slots, total_aoi, average_aoi, sum_aoi, residual_energy_j
+/// and flight. The latter is a list of {slot, column, row, move, scheduled, aoi}, one for each slot, with the
+/// AoI at its beginning. If there is a plan, the object also has optimal, lower_bound_total_aoi and
+/// lower_bound_average_aoi.
+std::string FlightJson(const World& world, const Flight& flight, const std::string& policy,
+                       const std::optional<Plan>& plan = std::nullopt);
 
 }  // namespace fresco
