@@ -9,6 +9,7 @@
 #include "actors/actor_memory.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
 
 namespace fresco {
@@ -48,7 +49,7 @@ void Actor::HandleRun(const run_t& message) {
   const RunIdentity identity = IdentityOf(message);
   if (session_ != nullptr && session_->identity == identity) {
     if (IsMine(identity, message.utime) && message.finished != 0) {
-      spdlog::info("run {:016x} is over", static_cast<uint64_t>(identity.run_id));
+      spdlog::info("run {} is over", IdentifierText(identity.run_id));
       session_.reset();
       run_over_ = true;
     }
@@ -95,16 +96,16 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
     RefuseIfTooLarge({ActorMemory(experiment, capacity)}, options_.available_memory());
     if (session_ != nullptr) {
       spdlog::warn(
-          "leaving run {:016x}: its messages are not of now by this host's clock, those of another run are",
-          static_cast<uint64_t>(session_->identity.run_id));
+          "leaving run {}: its messages are not of now by this host's clock, those of another run are",
+          IdentifierText(session_->identity.run_id));
     }
     session_ = std::make_unique<Session>(std::move(experiment), IdentityOf(message), capacity);
     session_->last_heard_us = attention_.now_us();
     session_->newest_utime = std::max<int64_t>(0, message.utime);
     ++totals_.runs;
     run_over_ = false;
-    spdlog::info("serving run {:016x}, configuration {:08x}, {} environments",
-                 static_cast<uint64_t>(message.run_id), IdentityOf(message).config_hash, capacity);
+    spdlog::info("serving run {}, configuration {:08x}, {} environments", IdentifierText(message.run_id),
+                 IdentityOf(message).config_hash, capacity);
   } catch (const Error& error) {
     NoteRefusal(message.run_id, error.what());
   }
@@ -114,8 +115,7 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
 void Actor::NoteRefusal(int64_t run_id, const char* reason) {
   constexpr int64_t kPeriodUs = 10'000'000;
   if (now_us_ >= next_refusal_us_) {
-    spdlog::error("run {:016x} on {} can't be served: {}", static_cast<uint64_t>(run_id), channels_.run,
-                  reason);
+    spdlog::error("run {} on {} can't be served: {}", IdentifierText(run_id), channels_.run, reason);
     next_refusal_us_ = now_us_ + kPeriodUs;
     refused_run_ = run_id;
   }
@@ -237,8 +237,8 @@ void Actor::Finish(const Order& order, OrderResult& result) {
 /// Silence is what was listened to: a process that was stopped finds its messages waiting when it wakes.
 void Actor::LeaveSilentRun() {
   if (session_ != nullptr && attention_.now_us() - session_->last_heard_us > kSilentRunUs) {
-    spdlog::warn("nothing heard of run {:016x} for {} s; looking for a run",
-                 static_cast<uint64_t>(session_->identity.run_id), kSilentRunUs / 1'000'000);
+    spdlog::warn("nothing heard of run {} for {} s; looking for a run",
+                 IdentifierText(session_->identity.run_id), kSilentRunUs / 1'000'000);
     session_.reset();
   }
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "actors/actor.h"
+#include "core/identifier.h"
 
 namespace fresco {
 namespace {
@@ -99,9 +100,9 @@ ActorTotals Actor::totals() const {
 
 std::string Actor::Description() const {
   return fmt::format(
-      "actor {:016x}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} versions completed, "
+      "actor {}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} versions completed, "
       "the slowest within {:.1f} ms, {} messages received, {}",
-      static_cast<uint64_t>(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
+      IdentifierText(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
       totals_.resent_episodes, totals_.completed_versions, Milliseconds(totals_.longest_assembly_us),
       totals_.received_messages, Text(totals().rejected));
 }
@@ -125,8 +126,8 @@ std::string Actor::StateText() const {
     return text + "\n  waits for a run";
   }
   const Session& session = *session_;
-  text += fmt::format("\n  run {:016x}, last heard of {:.1f} s ago\n  {} orders flying, {} flown and kept",
-                      static_cast<uint64_t>(session.identity.run_id),
+  text += fmt::format("\n  run {}, last heard of {:.1f} s ago\n  {} orders flying, {} flown and kept",
+                      IdentifierText(session.identity.run_id),
                       Milliseconds(attention_.now_us() - session.last_heard_us) * 1e-3,
                       session.flyer.open_flights(), session.flown.size());
   size_t lines = 0;

@@ -14,7 +14,6 @@
 #include "core/identifier.h"
 #include "core/signals.h"
 #include "core/version.h"
-#include "msgs/settings.h"
 
 namespace fresco {
 namespace {

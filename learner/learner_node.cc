@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "core/clock.h"
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
 #include "msgs/scenario_codec.h"
 
@@ -181,9 +182,9 @@ void LearnerNode::HandleRun(const run_t& message) {
   if (!warned) {  // once: whoever floods the bus with runs is not to fill the log
     warned = true;
     spdlog::warn(
-        "{}, {:016x}, is on {}: it does no harm, but shares the bandwidth",
+        "{}, {}, is on {}: it does no harm, but shares the bandwidth",
         current ? "another run" : "a recording of a run (or a run whose clock differs from this host's)",
-        static_cast<uint64_t>(message.run_id), channels_.run);
+        IdentifierText(message.run_id), channels_.run);
   }
   foreign_run_ = current ? message.run_id : foreign_run_;
 }

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "core/identifier.h"
 #include "learner/learner_node.h"
 
 namespace fresco {
@@ -123,11 +124,10 @@ std::string LearnerNode::StateText() const {
   const BusCounters counters = CountersLocked();
   const std::string waiting_for = WaitingForLocked();
   std::string text = fmt::format(
-      "state\n  run {:016x}, configuration {:08x}\n  {} orders committed, {} in flight; {} of {} episodes, "
-      "{} "
-      "transitions, {} updates",
-      static_cast<uint64_t>(identity_.run_id), identity_.config_hash, ledger_.committed(),
-      ledger_.in_flight(), progress_.episodes, total_episodes_, progress_.transitions, progress_.updates);
+      "state\n  run {}, configuration {:08x}\n  {} orders committed, {} in flight; {} of {} episodes, "
+      "{} transitions, {} updates",
+      IdentifierText(identity_.run_id), identity_.config_hash, ledger_.committed(), ledger_.in_flight(),
+      progress_.episodes, total_episodes_, progress_.transitions, progress_.updates);
   text += waiting_for.empty()
               ? "\n  waits for nobody"
               : fmt::format("\n  waits for {}; starved for {:.1f} s", waiting_for, StarvedSecondsLocked());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "core/check.h"
 #include "core/error.h"
@@ -79,16 +80,14 @@ void LoggedEpisodes::TakeOrders(const orders_t& message) {
   }
 }
 
-std::vector<std::pair<int64_t, int64_t>> LoggedEpisodes::Missing() const {
-  std::vector<std::pair<int64_t, int64_t>> missing;
-  int64_t next = 0;
+std::vector<Interval> LoggedEpisodes::Missing() const {
+  constexpr size_t kAll = std::numeric_limits<size_t>::max();
+  IntervalSet whole(kAll);
+  whole.Add(-1, -1);  // so that the orders before the first whole episode are a gap, too
   for (const int64_t index : whole_) {
-    if (index > next) {
-      missing.emplace_back(next, index - 1);
-    }
-    next = index + 1;
+    whole.Add(index, index);
   }
-  return missing;
+  return whole.Gaps(kAll);
 }
 
 std::vector<int64_t> LoggedEpisodes::Training() const {

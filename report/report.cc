@@ -7,9 +7,8 @@
 
 #include "core/check.h"
 #include "core/version.h"
-#include "report/flight_json.h"
-#include "report/report_table.h"
-#include "report/report_text.h"
+#include "report/report_html.h"
+#include "report/result_display.h"
 
 namespace fresco {
 namespace {

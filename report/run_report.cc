@@ -4,12 +4,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/atomic_file.h"
+#include "core/check.h"
 #include "core/error.h"
-#include "report/train_display.h"
+#include "report/result_display.h"
 #include "storage/flown_policy.h"
 #include "storage/network_file.h"
 #include "storage/policy.h"
@@ -48,6 +50,38 @@ Episode FlightOfOptimum(const World& world, const Json& optimum, const Path& fil
 }
 
 }  // namespace
+
+LinePlot LearningCurvePlot(const LearningCurve& curve) {
+  FRESCO_CHECK(!curve.points.empty());
+  constexpr int64_t kManyUpdates = 10'000;
+  const bool thousands = curve.points.back().updates >= kManyUpdates;
+  Curve flights{.name = "greedy flight", .role = CurveRole::kDqn, .shape = CurveShape::kFaintDots};
+  Curve best{.name = "best so far", .role = CurveRole::kDqn, .shape = CurveShape::kSteps};
+  Curve failures{.name = "did not arrive", .role = CurveRole::kAoiBased, .shape = CurveShape::kTopMarks};
+  for (const LearningPoint& point : curve.points) {
+    const double x = static_cast<double>(point.updates) / (thousands ? 1000 : 1);
+    flights.x.push_back(x);
+    flights.y.push_back(point.arrived ? point.average_aoi : std::nan(""));
+    if (!point.arrived) {
+      failures.x.push_back(x);
+    }
+    const bool last = &point == &curve.points.back();
+    const bool better = point.arrived && (best.y.empty() || point.average_aoi < best.y.back());
+    if (better || (last && !best.y.empty())) {
+      best.x.push_back(x);
+      best.y.push_back(better ? point.average_aoi : best.y.back());
+    }
+  }
+  LinePlot plot{.title = curve.title,
+                .x_label = thousands ? "updates (thousands)" : "updates",
+                .y_label = "average AoI [slots]"};
+  plot.curves = {flights, failures, best};
+  if (curve.optimum_average_aoi) {
+    plot.references = {{"exact optimum", CurveRole::kOptimum, *curve.optimum_average_aoi}};
+    plot.gap_base = curve.optimum_average_aoi;
+  }
+  return plot;
+}
 
 FinishedRun::FinishedRun(const Path& folder)
     : experiment_(Experiment::Load((folder / "config.textproto").string())),

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/crc32c.h"
+#include "core/identifier.h"
 #include "core/version.h"
 #include "worlds/uav/baselines.h"
 
@@ -85,7 +86,7 @@ std::string SummaryJson(const SummaryInputs& inputs) {
   const Vector& weights = inputs.trainer.current();
   const std::span<const float> values(weights.data(), static_cast<size_t>(weights.size()));
   OrderedJson json;
-  json["run_id"] = fmt::format("{:016x}", static_cast<uint64_t>(inputs.run_id));
+  json["run_id"] = IdentifierText(inputs.run_id);
   json["config_hash"] = fmt::format("{:08x}", inputs.experiment.hash());
   json["seed"] = inputs.experiment.schedule().seed();
   json["completed"] = inputs.completed;

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/signals.h"
-#include "report/flight_json.h"
+#include "report/result_display.h"
 #include "storage/flown_policy.h"
 #include "tools/subcommands.h"
 

@@ -1,7 +1,5 @@
 #include "tests/logs/run_log.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
 #include "core/crc32c.h"
@@ -82,13 +80,6 @@ void WriteLog(const std::filesystem::path& path, const std::vector<OwnedEvent>& 
     writer.Write({0, event.utime, event.channel, event.message});
   }
   writer.Flush();
-}
-
-std::filesystem::path EmptyDirectory(const std::string& name) {
-  const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::remove_all(directory);
-  std::filesystem::create_directories(directory);
-  return directory;
 }
 
 }  // namespace fresco

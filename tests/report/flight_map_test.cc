@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "tests/report/picture_files.h"
+#include "tests/support/temporary_folder.h"
 #include "worlds/uav/baselines.h"
 
 namespace fresco {
@@ -107,7 +108,7 @@ TEST(FlightMap, HasTheSensorsInCellsWithTheirNumbers) {
 TEST(FlightMap, IsTwoFilesThatStayTheSame) {
   const World world = SmallWorld();
   const Picture picture = DrawFlightMap("AoI-based", world, FlyBaseline(world, BaselineKind::kAoi));
-  const TemporaryFolder folder("flight-map");
+  const TemporaryFolder folder;
   WritePicture(picture, folder.path() / "map");
   WritePicture(picture, folder.path() / "again");
   ASSERT_TRUE(ParsesAsXml(folder.path() / "map.svg"));
@@ -125,7 +126,7 @@ TEST(FlightMap, CanBeDrawnOfAFlightThatEndedEarlyWithoutCollections) {
   const World world = SmallWorld();
   const Episode flight = Fly(world, [](const Environment&) { return Action{Move::kHover, 0}; });
   ASSERT_FALSE(flight.arrived());
-  const TemporaryFolder folder("flight-map");
+  const TemporaryFolder folder;
   WritePicture(DrawFlightMap("hovered", world, flight), folder.path() / "map");
   EXPECT_TRUE(ParsesAsXml(folder.path() / "map.svg"));
 }

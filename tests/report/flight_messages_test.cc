@@ -6,7 +6,7 @@
 #include <numeric>
 #include <nlohmann/json.hpp>
 
-#include "report/flight_json.h"
+#include "report/result_display.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/baselines.h"
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/report/picture_files.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/baselines.h"
 
@@ -35,14 +36,6 @@ std::vector<std::string> Matches(const std::string& text, const std::string& pat
     found.push_back((*match)[1]);
   }
   return found;
-}
-
-int Count(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
-    ++count;
-  }
-  return count;
 }
 
 /// What a browser reads between a tag and the next end tag of a script.
