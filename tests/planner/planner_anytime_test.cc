@@ -54,6 +54,10 @@ struct Stopper {
 // So few labels a slot that the optimum's are dropped on the way: the bound has to remember them.
 TEST(PlannerProgress, ClaimsNoMoreThanIsProvedWhereLabelsAreDropped) {
   Scenario scenario;
+  scenario.columns = scenario.rows = 14;
+  scenario.start = {7, 0};
+  scenario.stop = {7, 13};
+  scenario.slots = 50;
   scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 3, 1);
   const World world(scenario);
   const Plan plan = PlanOptimally(world);

@@ -79,11 +79,11 @@ TEST_P(FlyerActions, AreTheFirstAllowedOneWhereAllValuesAreEqual) {
 TEST_P(FlyerActions, AreUniformAmongAllowedOnesInTheFirstSlotWithEpsilonOne) {
   constexpr int kOrders = 5000;
   std::vector<int> taken(static_cast<size_t>(world_.actions()));
-  Mask mask;
-  for (const Episode& episode : FlyMany(kOrders, 1)) {
+  const std::vector<Episode> episodes = FlyMany(kOrders, 1);
+  for (const Episode& episode : episodes) {
     ++taken[static_cast<size_t>(episode.actions[0])];
-    mask = MasksOf(world_, experiment_, episode)[0];
   }
+  const Mask mask = MasksOf(world_, experiment_, episodes[0])[0];  // every episode begins alike
   const double share = 1.0 / Allowed(mask);
   for (size_t action = 0; action < taken.size(); ++action) {
     const double expected = mask[action] != 0 ? kOrders * share : 0;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "tests/support/sanitized.h"
 #include "tests/training/recorded_run.h"
 
 namespace fresco {
@@ -129,7 +130,7 @@ class AbsurdState : public ::testing::Test {
 };
 
 TEST_F(AbsurdState, IsRefusedOrGoneOnWith) {
-  constexpr int kTries = 4000;
+  constexpr int kTries = kSanitized ? 1000 : 4000;
   int refused = 0;
   for (int i = 0; i < kTries; ++i) {
     SCOPED_TRACE(i);
