@@ -3,7 +3,6 @@
 #include "learner/weight_publisher.h"
 #include "msgs/versions_in_flight.h"
 #include "storage/checkpoint_file.h"
-#include "training/action_history.h"
 #include "training/dqn.h"
 #include "training/ledger.h"
 #include "training/replay_memory.h"

@@ -8,8 +8,8 @@
 
 #include "core/clock.h"
 #include "core/identifier.h"
+#include "msgs/flight_messages.h"
 #include "msgs/protocol_times.h"
-#include "msgs/scenario_codec.h"
 
 namespace fresco {
 namespace {

@@ -14,8 +14,8 @@
 #include "core/version.h"
 #include "learner/learner_memory.h"
 #include "learner/learner_process.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
 #include "storage/resumption.h"
 
 namespace fresco {

@@ -12,7 +12,6 @@
 #include "logs/coverage.h"
 #include "logs/merged_event_logs.h"
 #include "msgs/message_decoder.h"
-#include "msgs/message_peek.h"
 #include "msgs/run_announcements.h"
 
 namespace fresco {

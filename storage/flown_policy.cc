@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
 #include "worlds/uav/baselines.h"
 
 namespace fresco {

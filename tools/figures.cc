@@ -11,8 +11,8 @@
 #include "core/error.h"
 #include "core/installation.h"
 #include "core/output_folder.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
 #include "report/figure_writer.h"
 #include "tools/subcommands.h"
 

@@ -17,7 +17,6 @@
 #include "msgs/flight_messages.h"
 #include "msgs/message_bus.h"
 #include "msgs/protocol_times.h"
-#include "msgs/scenario_codec.h"
 #include "storage/flown_policy.h"
 #include "tools/subcommands.h"
 

@@ -13,7 +13,6 @@
 
 #include "msgs/experiment.h"
 #include "msgs/order.h"
-#include "training/action_history.h"
 #include "training/dqn.h"
 #include "training/replay_memory.h"
 #include "training/training_state.h"

@@ -5,7 +5,7 @@
 #include "core/check.h"
 #include "core/identifier.h"
 #include "msgs/config_reflection.h"
-#include "msgs/settings.h"
+#include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {

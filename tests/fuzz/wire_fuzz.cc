@@ -3,7 +3,7 @@
 // those who only peek; what nobody signed is not authentic.
 #include "bus/authenticated_bus.h"
 #include "core/check.h"
-#include "msgs/message_peek.h"
+#include "msgs/message_decoder.h"
 #include "msgs/order.h"
 #include "msgs/run_announcements.h"
 #include "msgs/weights_codec.h"

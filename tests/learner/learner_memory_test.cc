@@ -13,7 +13,6 @@
 #include "tests/support/heap_use.h"
 #include "tests/support/sanitized.h"
 #include "tests/training/recorded_run.h"
-#include "training/action_history.h"
 #include "training/dqn.h"
 #include "training/ledger.h"
 #include "training/replay_memory.h"

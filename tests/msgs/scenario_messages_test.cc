@@ -1,16 +1,17 @@
 // What a viewer gets to know of a field.
-#include "msgs/scenario_codec.h"
+#include "msgs/flight_messages.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/msgs/message_samples.h"
+#include "tests/worlds/table_one.h"
 
 namespace fresco {
 namespace {
 
 /// Sensor n stands at (n, 2 n) metres and weighs 3 n + 1.
 Scenario FieldOf(int sensors) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   for (int n = 0; n < sensors; ++n) {
     scenario.sensors.push_back({1.0 * n, 2.0 * n, 3.0 * n + 1});
   }
