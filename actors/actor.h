@@ -12,9 +12,8 @@
 
 #include "actors/network_store.h"
 #include "bus/bus.h"
-#include "core/attentive_clock.h"
-#include "core/available_memory.h"
 #include "core/clock.h"
+#include "core/memory.h"
 #include "msgs/channels.h"
 #include "msgs/message_bus.h"
 #include "msgs/run_announcements.h"

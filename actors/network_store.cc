@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 
 namespace fresco {
 namespace {

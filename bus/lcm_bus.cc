@@ -15,11 +15,10 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "bus/lcm_datagram.h"
 #include "bus/lcm_url.h"
+#include "bus/message_assembler.h"
 #include "bus/multicast_listener.h"
 #include "bus/receive_filter.h"
-#include "core/check.h"
 #include "core/error.h"
 
 namespace fresco {

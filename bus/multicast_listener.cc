@@ -7,8 +7,8 @@
 #include <array>
 #include <utility>
 
-#include "core/check.h"
 #include "core/clock.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {
@@ -89,14 +89,14 @@ void MulticastListener::Listen(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::array<pollfd, 2> readable = {{{socket_.descriptor(), POLLIN, 0}, {end_.descriptor(), POLLIN, 0}}};
     poll(readable.data(), readable.size(), -1);
-    socket_.Receive([this](const ReceivedDatagram& received) { Take(received); });
+    socket_.Receive([this](const ReceivedDatagram& received) { Assemble(received); });
     std::unique_lock lock(mutex_);
     room_.wait(lock, stop, [this] { return arrived_bytes_ < kMaximumArrivedBytes; });
   }
 }
 
-void MulticastListener::Take(const ReceivedDatagram& received) {
-  auto message = assembler_.Take(received.datagram, received.sender, received.utime);
+void MulticastListener::Assemble(const ReceivedDatagram& received) {
+  auto message = assembler_.Add(received.datagram, received.sender, received.utime);
   const std::lock_guard lock(mutex_);
   unheard_ = {assembler_.refused_datagrams(), assembler_.incomplete_messages()};
   if (message) {

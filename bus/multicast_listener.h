@@ -66,7 +66,7 @@ class MulticastListener {
   };
 
   void Listen(const std::stop_token& stop);
-  void Take(const ReceivedDatagram& received);
+  void Assemble(const ReceivedDatagram& received);
 
   MulticastSocket socket_;      // used by the listening thread only
   MessageAssembler assembler_;  // used by the listening thread only

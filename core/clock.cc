@@ -1,5 +1,6 @@
 #include "core/clock.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -25,6 +26,15 @@ int64_t ThreadProcessorMicroseconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return int64_t{time.tv_sec} * 1'000'000 + time.tv_nsec / 1000;
+}
+
+int64_t AttentiveClock::Look(int64_t monotonic_us) {
+  if (looked_) {
+    now_us_ += std::clamp<int64_t>(monotonic_us - last_look_us_, 0, kLongestGapUs);
+  }
+  looked_ = true;
+  last_look_us_ = monotonic_us;
+  return now_us_;
 }
 
 }  // namespace fresco

@@ -1,7 +1,7 @@
 // Computes how much memory the learner needs for a configuration. A pure function; any thread may call it.
 #pragma once
 
-#include "core/memory_need.h"
+#include "core/memory.h"
 #include "msgs/experiment.h"
 
 namespace fresco {

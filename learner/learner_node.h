@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "core/attentive_clock.h"
+#include "core/clock.h"
 #include "learner/roster.h"
 #include "learner/starvation_warning.h"
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
 #include "msgs/message_bus.h"
-#include "storage/bus_counters.h"
 #include "storage/optimum_search.h"
+#include "storage/summary.h"
 #include "training/ledger.h"
 #include "training/trainer.h"
 

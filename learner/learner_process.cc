@@ -87,7 +87,7 @@ void LearnerProcess::Serve(std::stop_token stop) {
   try {
     while (!stop.stop_requested()) {
       node_.Step();
-      if (StateSignal::TakeRequest()) {
+      if (StateSignal::ConsumeRequest()) {
         spdlog::info("{}", node_.StateText());
       }
     }
@@ -175,7 +175,7 @@ void LearnerProcess::WriteCheckpoint() {
 void LearnerProcess::WaitForOptimum() {
   constexpr int64_t kReportUs = 200'000;
   if (trainer_.finished()) {
-    optimum_->TakeFullPriority();
+    optimum_->SetFullPriority();
   }
   while (trainer_.finished() && !StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
     node_.SetFinishing(fmt::format("the proof of the exact optimum: at most {:.0f} s more of processor time",

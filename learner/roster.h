@@ -2,7 +2,7 @@
 // in flight to an actor that sent a status lately, and gives late orders out again, to another actor if there
 // is one. It decides only who flies an order, so nothing here reaches the weights. Memory is bounded. All
 // times are microseconds of a clock that stops while the learner's process is stopped
-// (core/attentive_clock.h). LearnerNode owns it. Not thread-safe.
+// (core/clock.h). LearnerNode owns it. Not thread-safe.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "msgs/protocol_times.h"
 
 namespace fresco {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "msgs/message_decoder.h"
 
 namespace fresco {

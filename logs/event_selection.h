@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/channel_filter.h"
 
 namespace fresco {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/authentication_key.h"
+#include "bus/authenticated_bus.h"
 #include "logs/merged_event_logs.h"
 #include "msgs/message_decoder.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/episode_coverage.h"
 #include "logs/interval_set.h"
 #include "msgs/message_decoder.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/check.h"
 #include "core/error.h"
 
 namespace fresco {

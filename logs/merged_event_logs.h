@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/event_log_reader.h"
 
 namespace fresco {

@@ -4,8 +4,7 @@
 
 #include <utility>
 
-#include "core/check.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
 #include "training/episode_check.h"
 

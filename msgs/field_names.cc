@@ -1,6 +1,6 @@
 #include "msgs/field_names.h"
 
-#include "core/nearest_name.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {

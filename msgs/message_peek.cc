@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "core/big_endian.h"
+#include "core/bytes.h"
 
 namespace fresco {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
-#include "core/memory_need.h"
+#include "core/error.h"
+#include "core/memory.h"
 #include "msgs/episode.h"
 
 namespace fresco {

@@ -1,8 +1,8 @@
 #include "processes/run_checks.h"
 
 #include "actors/actor_memory.h"
+#include "core/files.h"
 #include "core/installation.h"
-#include "core/output_folder.h"
 #include "learner/learner_memory.h"
 
 namespace fresco {

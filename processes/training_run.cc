@@ -4,10 +4,9 @@
 
 #include <csignal>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/folder_lock.h"
+#include "core/files.h"
 #include "core/identifier.h"
 #include "core/installation.h"
 #include "msgs/channels.h"

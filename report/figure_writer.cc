@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "report/figure_groups.h"
 #include "report/flight_map.h"
 #include "report/run_report.h"
 #include "report/train_display.h"
-#include "storage/flown_policy.h"
 #include "storage/policy.h"
 
 namespace fresco {

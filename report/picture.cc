@@ -4,9 +4,8 @@
 
 #include <string_view>
 
-#include "core/atomic_file.h"
-#include "core/check.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "report/gnuplot.h"
 
 namespace fresco {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/check.h"
-#include "core/version.h"
+#include "core/error.h"
+#include "core/installation.h"
 #include "report/flight_json.h"
 #include "report/report_table.h"
 #include "report/report_text.h"

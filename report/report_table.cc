@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "report/report_text.h"
 
 namespace fresco {

@@ -7,10 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "report/train_display.h"
-#include "storage/flown_policy.h"
 #include "storage/network_file.h"
 #include "storage/policy.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 

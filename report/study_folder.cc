@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "processes/training_run.h"
 #include "storage/checkpoint_folder.h"
 #include "storage/summary.h"

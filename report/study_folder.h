@@ -7,7 +7,7 @@
 #include <string>
 
 #include "report/study.h"
-#include "storage/resumption.h"
+#include "storage/checkpoint_folder.h"
 
 namespace fresco {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/command_line.h"
 #include "core/error.h"
 #include "core/installation.h"

@@ -43,7 +43,7 @@ OptimumSearch::~OptimumSearch() {
 }
 
 /// Lowers the priority of the calling thread, so that the training and the network threads go first.
-void OptimumSearch::TakeLowPriority() {
+void OptimumSearch::SetLowPriority() {
   constexpr int kLeastUrgent = 19;
   const std::lock_guard lock(mutex_);
   thread_id_ = static_cast<int>(syscall(SYS_gettid));
@@ -52,7 +52,7 @@ void OptimumSearch::TakeLowPriority() {
   }
 }
 
-void OptimumSearch::TakeFullPriority() {
+void OptimumSearch::SetFullPriority() {
   const std::lock_guard lock(mutex_);
   hurried_ = true;
   if (thread_id_ != 0 && !ended_) {  // after a thread has ended, another one may have its id
@@ -61,7 +61,7 @@ void OptimumSearch::TakeFullPriority() {
 }
 
 void OptimumSearch::Search() {
-  TakeLowPriority();
+  SetLowPriority();
   std::shared_ptr<const Plan> plan;
   try {
     PlannerOptions options;
@@ -117,7 +117,7 @@ bool OptimumSearch::WaitForEnd(int64_t timeout_us) {
 
 void OptimumSearch::Stop() {
   stop_ = true;
-  TakeFullPriority();
+  SetFullPriority();
   if (thread_.joinable()) {
     thread_.join();
   }

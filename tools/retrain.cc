@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/error.h"
 #include "learner/learner_memory.h"
 #include "logs/retrain_run.h"
@@ -13,7 +13,7 @@
 #include "msgs/settings.h"
 #include "report/run_report.h"
 #include "report/train_display.h"
-#include "storage/new_run_folder.h"
+#include "storage/run_folder.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

@@ -7,8 +7,8 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/live_line.h"
-#include "core/output_folder.h"
 #include "core/signals.h"
 #include "processes/run_checks.h"
 #include "soak/soak_options.h"

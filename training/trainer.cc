@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "training/schedules.h"
 
 namespace fresco {

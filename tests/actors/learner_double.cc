@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "msgs/weights_codec.h"
 #include "tests/nn/literal_network.h"
 

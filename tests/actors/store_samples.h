@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "actors/network_store.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "tests/nn/literal_network.h"
 
 namespace fresco {

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "tests/report/picture_files.h"
 
 namespace fresco {

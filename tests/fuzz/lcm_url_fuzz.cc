@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "bus/lcm_url.h"
-#include "core/check.h"
+#include "core/error.h"
 #include "msgs/channels.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "logs/event_log_writer.h"
 #include "msgs/episode.h"
 #include "storage/checkpoint_file.h"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "report/gnuplot.h"
 #include "tests/report/picture_files.h"
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 

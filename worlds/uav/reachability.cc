@@ -1,7 +1,7 @@
 // The part of world.h that decides whether the stop can still be reached.
 #include <algorithm>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "worlds/uav/world.h"
 
 namespace fresco {

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/check.h"
 #include "core/error.h"
 #include "worlds/uav/rotor.h"
 #include "worlds/uav/scenario_check.h"

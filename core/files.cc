@@ -1,6 +1,8 @@
-#include "core/atomic_file.h"
+#include "core/files.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/clock.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -96,6 +99,42 @@ std::string ReadFile(const std::filesystem::path& path) {
                      (std::filesystem::is_directory(path) ? "it is a directory" : std::strerror(errno)));
   }
   return content.str();
+}
+
+void CheckOutputFolder(const std::filesystem::path& folder, const std::string& option) {
+  std::error_code error;  // a path that can't be looked at counts as not there; its parent tells why
+  std::filesystem::path there = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(there, error) && there.has_relative_path()) {
+    there = there.parent_path();
+  }
+  if (!std::filesystem::is_directory(there, error)) {
+    throw UsageError(option + ": can't make the folder " + folder.string() + ": " + there.string() +
+                     " is not a folder");
+  }
+  if (::faccessat(AT_FDCWD, there.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    throw UsageError(option + ": can't write to the folder " + folder.string() + ": " + there.string() +
+                     ": " + std::strerror(errno));
+  }
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder, int64_t patience_us)
+    : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (fd_ < 0) {
+    throw UsageError("can't open the folder " + folder.string() + ": " + std::strerror(errno));
+  }
+  const int64_t deadline_us = MonotonicMicroseconds() + patience_us;
+  while (::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (MonotonicMicroseconds() >= deadline_us) {
+      ::close(fd_);
+      throw UsageError(folder.string() + ": another process is at work in this folder; end it first");
+    }
+    constexpr int kPauseMs = 20;
+    ::poll(nullptr, 0, kPauseMs);
+  }
+}
+
+FolderLock::~FolderLock() {
+  ::close(fd_);
 }
 
 }  // namespace fresco

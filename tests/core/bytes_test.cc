@@ -1,5 +1,5 @@
 // Against the published vectors of RFC 3720, appendix B.4, and the check value of the CRC catalogue.
-#include "core/crc32c.h"
+#include "core/bytes.h"
 
 #include <gtest/gtest.h>
 

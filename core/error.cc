@@ -1,6 +1,8 @@
-#include "core/nearest_name.h"
+#include "core/error.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 namespace fresco {
@@ -25,6 +27,20 @@ size_t EditsIfNear(std::string_view name, std::string_view candidate) {
 }
 
 }  // namespace
+
+Error Failure(const std::string& message) {
+  return {ErrorKind::kFailure, message};
+}
+
+Error UsageError(const std::string& message) {
+  return {ErrorKind::kUsage, message};
+}
+
+void Expect(bool condition, const std::string& origin, const std::string& problem) {
+  if (!condition) {
+    throw UsageError(origin + ": " + problem);
+  }
+}
 
 size_t EditDistance(std::string_view from, std::string_view to) {
   // edits[i][j]: between the first i characters of `from` and the first j of `to`.
@@ -61,6 +77,12 @@ std::optional<std::string> NearestName(std::string_view name, const std::vector<
 std::string DidYouMean(std::string_view name, const std::vector<std::string>& candidates) {
   const std::optional<std::string> nearest = NearestName(name, candidates);
   return nearest ? "; did you mean " + *nearest + "?" : "";
+}
+
+void CheckFailed(const char* file, int line, const char* condition) {
+  std::fprintf(stderr, "%s:%d: check failed: %s (a defect in Fresco; please report it)\n", file, line,
+               condition);
+  std::abort();
 }
 
 }  // namespace fresco

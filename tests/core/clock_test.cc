@@ -1,4 +1,4 @@
-#include "core/attentive_clock.h"
+#include "core/clock.h"
 
 #include <gtest/gtest.h>
 

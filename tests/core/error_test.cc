@@ -1,4 +1,4 @@
-#include "core/nearest_name.h"
+#include "core/error.h"
 
 #include <gtest/gtest.h>
 

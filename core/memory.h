@@ -1,14 +1,31 @@
-// What a configuration makes a process take of memory, part by part, and the refusal of what can't be. The
-// numbers come from functions beside the classes that take the memory (BytesFor). Pure.
+// How much memory a configuration makes the processes of a run take, part by part, how much the host has, and
+// the refusal of what can't be. The numbers of a need come from functions beside the classes that take the
+// memory (BytesFor). Linux only. Any thread may call these functions.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "core/available_memory.h"
-
 namespace fresco {
+
+/// Bytes that can still be taken, and what says so.
+struct MemoryLimit {
+  int64_t bytes = std::numeric_limits<int64_t>::max();
+  std::string source = "no limit";
+};
+
+struct AvailableMemory {
+  MemoryLimit host;     ///< for all processes together: what the kernel has, and the control group's rest
+  MemoryLimit process;  ///< for one process alone: what `ulimit` leaves, at most `host`
+};
+
+/// As it is now: the least of MemAvailable in /proc/meminfo, the rest of the control group of this process
+/// and of those above it (cgroup v2 and v1; file pages that the kernel can drop count as free), and, for one
+/// process, RLIMIT_AS and RLIMIT_DATA. What can't be read is no limit. `root` is the root of the file system.
+AvailableMemory ReadAvailableMemory(const std::filesystem::path& root = "/");
 
 struct MemoryPart {
   std::string field;    ///< of the configuration, to be lowered; empty: none

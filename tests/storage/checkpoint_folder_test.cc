@@ -1,12 +1,12 @@
 // What a killed learner finds in its folder: whole, torn, foreign and newer checkpoints.
-#include "storage/resumption.h"
+#include "storage/checkpoint_folder.h"
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "storage/checkpoint_folder.h"
 #include "storage/run_folder.h"
 #include "tests/training/recorded_run.h"
