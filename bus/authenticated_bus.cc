@@ -68,9 +68,9 @@ const unsigned char* Data(std::span<const std::byte> bytes) {
   return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
-const Tag& TagOf(const AuthenticationKey& key, std::string_view channel, std::span<const std::byte> content,
-                 Tag& tag) {
+Tag TagOf(const AuthenticationKey& key, std::string_view channel, std::span<const std::byte> content) {
   constexpr unsigned char kEndOfChannel = 0;  // so that "ab" + "c" and "a" + "bc" have different tags
+  Tag tag;
   crypto_generichash_state state;
   crypto_generichash_init(&state, key.bytes().data(), key.bytes().size(), tag.size());
   crypto_generichash_update(&state, Data(std::as_bytes(std::span(channel))), channel.size());
@@ -88,9 +88,10 @@ class AuthenticatedBus : public Bus {
 
   bool Publish(const std::string& channel, std::span<const std::byte> message) override {
     const std::lock_guard lock(publish_mutex_);
-    const auto tag = std::as_bytes(std::span(TagOf(key_, channel, message, published_tag_)));
+    const Tag tag = TagOf(key_, channel, message);
+    const auto tag_bytes = std::as_bytes(std::span(tag));
     published_.assign(message.begin(), message.end());
-    published_.insert(published_.end(), tag.begin(), tag.end());
+    published_.insert(published_.end(), tag_bytes.begin(), tag_bytes.end());
     return inner_->Publish(channel, published_);
   }
 
@@ -122,9 +123,8 @@ class AuthenticatedBus : public Bus {
   std::unique_ptr<Bus> owned_;  // null if this object does not own inner_
   Bus* inner_;
   AuthenticationKey key_;
-  std::mutex publish_mutex_;  // guards published_ and published_tag_
+  std::mutex publish_mutex_;  // guards published_
   std::vector<std::byte> published_;
-  Tag published_tag_{};
   std::atomic<int64_t> refused_ = 0;
 };
 
@@ -168,8 +168,7 @@ std::optional<std::span<const std::byte>> AuthenticContent(const AuthenticationK
     return std::nullopt;
   }
   const auto content = message.first(message.size() - kAuthenticationTagBytes);
-  Tag expected;
-  TagOf(key, channel, content, expected);
+  const Tag expected = TagOf(key, channel, content);
   const bool holds = sodium_memcmp(expected.data(), Data(message.last(kAuthenticationTagBytes)),
                                    kAuthenticationTagBytes) == 0;
   return holds ? std::optional(content) : std::nullopt;

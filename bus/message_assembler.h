@@ -81,11 +81,9 @@ class MessageAssembler {
     std::string_view channel = {};  // empty unless this is fragment 0
   };
 
-  /// Where a fragment's data are: `offset` in the message, `arrived_at` in Incomplete::arrived.
-  struct Extent {
+  struct Part {
     uint32_t offset;
-    uint32_t bytes;
-    size_t arrived_at;
+    std::vector<std::byte> data;
   };
 
   struct Incomplete {
@@ -94,16 +92,15 @@ class MessageAssembler {
     uint16_t count;
     int64_t touched_utime = 0;
     std::string channel = {};
-    std::map<uint16_t, Extent> extents = {};  // by fragment number; the offsets ascend, too
-    std::vector<std::byte> arrived = {};
+    std::map<uint16_t, Part> parts = {};  // by fragment number; the offsets ascend, too
+    size_t arrived_bytes = 0;             // of all parts together
   };
   using Messages = std::list<Incomplete>;
 
   static std::optional<Fragment> ParseFragment(std::span<const std::byte> datagram);
   static bool Agrees(const Incomplete& message, const Fragment& fragment);
-  static bool Repeats(const Incomplete& message, const Extent& extent, const Fragment& fragment);
+  static bool Repeats(const Incomplete& message, const Part& part, const Fragment& fragment);
   static size_t MemoryBytes(const Incomplete& message);
-  static std::vector<std::byte> InOrder(Incomplete message);
 
   std::optional<AssembledMessage> AddWhole(std::span<const std::byte> datagram);
   std::optional<AssembledMessage> AddFragment(const Fragment& fragment, uint64_t sender, int64_t utime);

@@ -37,4 +37,14 @@ int64_t AttentiveClock::Look(int64_t monotonic_us) {
   return now_us_;
 }
 
+double RateMeter::Measure(int64_t count, int64_t now_us) {
+  constexpr int64_t kPeriodUs = 1'000'000;
+  if (now_us - since_us_ >= kPeriodUs) {
+    per_s_ = static_cast<double>(count - since_count_) / (static_cast<double>(now_us - since_us_) * 1e-6);
+    since_us_ = now_us;
+    since_count_ = count;
+  }
+  return per_s_;
+}
+
 }  // namespace fresco

@@ -35,4 +35,16 @@ class AttentiveClock {
   int64_t now_us_ = 1;  // so that 0 may stand for "never"
 };
 
+/// Measures how fast a count grows, over times of at least a second. Not thread-safe.
+class RateMeter {
+ public:
+  /// Looks at the count; returns its newest rate, per second.
+  double Measure(int64_t count, int64_t now_us);
+
+ private:
+  int64_t since_us_ = 0;
+  int64_t since_count_ = 0;
+  double per_s_ = 0;
+};
+
 }  // namespace fresco

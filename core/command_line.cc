@@ -14,7 +14,7 @@
 namespace fresco {
 namespace {
 
-/// An argument that neither is an option nor has a place, and the command that it was given to.
+/// An argument that is no option and that the command does not expect, and the command.
 struct UnexpectedArgument {
   const CLI::App* command;
   std::string text;

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <optional>
 #include <sstream>
-#include <utility>
 
 #include "core/error.h"
 

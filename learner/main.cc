@@ -6,8 +6,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/identifier.h"
-#include "core/signals.h"
-#include "learner/learner_memory.h"
 #include "learner/learner_process.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"

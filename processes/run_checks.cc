@@ -1,9 +1,9 @@
 #include "processes/run_checks.h"
 
-#include "actors/actor_memory.h"
+#include "actors/served_run.h"
 #include "core/files.h"
 #include "core/installation.h"
-#include "learner/learner_memory.h"
+#include "learner/learner_process.h"
 
 namespace fresco {
 

@@ -140,8 +140,8 @@ void WriteTrainingState(const TrainingState& from, proto::Checkpoint& to) {
   }
   for (const VersionState& version : from.versions) {
     proto::CheckpointVersion& entry = *to.add_versions();
-    entry.set_target(version.kind == NetworkKind::kTarget);
-    entry.set_version(version.version);
+    entry.set_target(version.version.kind == NetworkKind::kTarget);
+    entry.set_version(version.version.number);
     entry.set_updates(version.updates);
     entry.set_parameters(Bytes(*version.parameters));
   }
@@ -173,8 +173,10 @@ TrainingState ReadTrainingState(const proto::Checkpoint& from, int64_t parameter
     to.orders.push_back(FromProto(order));
   }
   for (const proto::CheckpointVersion& version : from.versions()) {
-    to.versions.push_back({version.target() ? NetworkKind::kTarget : NetworkKind::kCurrent, version.version(),
-                           version.updates(), reader.ReadShared(version.parameters(), "versions")});
+    to.versions.push_back(
+        {{version.target() ? NetworkKind::kTarget : NetworkKind::kCurrent, version.version()},
+         version.updates(),
+         reader.ReadShared(version.parameters(), "versions")});
   }
   to.current = reader.Read(from.current(), "current");
   to.target = reader.Read(from.target(), "target");

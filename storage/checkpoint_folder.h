@@ -58,7 +58,7 @@ struct Resumption {
 inline constexpr int64_t kResumePatienceUs = 5'000'000;
 
 /// Reads the folder of a run that is incomplete or whose search for the optimum was stopped. Finds the latest
-/// checkpoint that is whole and has the run's configuration and this program's arithmetic. `settings` may
+/// checkpoint that is complete and has the run's configuration and this program's arithmetic. `settings` may
 /// change fields of `run` only. Changes nothing. The caller holds the folder's lock. Throws UsageError if the
 /// folder holds no run or a complete one, or if it has checkpoints but none can be used.
 Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings);

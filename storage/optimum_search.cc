@@ -12,19 +12,8 @@
 namespace fresco {
 
 const char* SearchEndName(SearchEnd end) {
-  switch (end) {
-    case SearchEnd::kOff:
-      return "off";
-    case SearchEnd::kProved:
-      return "proved";
-    case SearchEnd::kLimit:
-      return "limit";
-    case SearchEnd::kStopped:
-      return "stopped";
-    case SearchEnd::kFailed:
-      break;
-  }
-  return "failed";
+  constexpr const char* kNames[] = {"off", "proved", "limit", "stopped", "failed"};
+  return kNames[static_cast<size_t>(end)];
 }
 
 OptimumSearch::OptimumSearch(const World& world, Limits limits, ProcessorClock processor_clock)

@@ -2,11 +2,12 @@
 #include "tools/subcommands.h"
 
 int main(int argc, char** argv) {
-  fresco::Program program("fresco", "Fresco trains a UAV to keep the data of a sensor field fresh.",
-                          fresco::LogStyle::kPlain);
+  using namespace fresco;
+  Program program("fresco", "Fresco trains a UAV to keep the data of a sensor field fresh.",
+                  LogStyle::kPlain);
   CLI::App& app = program.command_line();
   app.require_subcommand(1);
-  fresco::Command command;
+  Command command;
   AddTrain(app, command);
   AddEvaluate(app, command);
   AddRetrain(app, command);

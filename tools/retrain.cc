@@ -7,7 +7,7 @@
 
 #include "bus/open_bus.h"
 #include "core/error.h"
-#include "learner/learner_memory.h"
+#include "learner/learner_process.h"
 #include "logs/retrain_run.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"

@@ -87,8 +87,8 @@ void LearnerDouble::SendVersion(NetworkVersion version, const Vector& parameters
   const auto values = SpanOf(parameters);
   for (int chunk = 0; chunk < ChunkCount(parameters.size()); ++chunk) {
     if (!without.contains(chunk)) {
-      Send(version.first == NetworkKind::kCurrent ? channels_.weights_current : channels_.weights_target,
-           WeightsChunk(values, Crc32c(values), version.second, chunk));
+      Send(version.kind == NetworkKind::kCurrent ? channels_.weights_current : channels_.weights_target,
+           WeightsChunk(values, Crc32c(values), version.number, chunk));
     }
   }
 }

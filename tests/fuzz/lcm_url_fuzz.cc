@@ -12,8 +12,8 @@ namespace fresco {
 namespace {
 
 void CheckUrl(const std::string& url) {
-  const std::string normal = NormalizeLcmUrl(url);
-  FRESCO_CHECK(NormalizeLcmUrl(normal) == normal);
+  const std::string normal = ParseLcmUrl(url).text;
+  FRESCO_CHECK(ParseLcmUrl(normal).text == normal);
 }
 
 void CheckPrefix(const std::string& prefix) {

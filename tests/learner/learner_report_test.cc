@@ -1,4 +1,4 @@
-#include "learner/starvation_warning.h"
+#include "learner/learner_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,10 @@
-// What is foretold of an actor's memory, against what its parts really take of the heap.
-#include "actors/actor_memory.h"
+// The orders and the kept episodes of one run; what is foretold of an actor's memory, against what its parts
+// really take of the heap.
+#include "actors/served_run.h"
 
 #include <gtest/gtest.h>
 
+#include "msgs/protocol_times.h"
 #include "tests/actors/store_samples.h"
 #include "tests/support/heap_use.h"
 #include "tests/support/sanitized.h"
@@ -10,6 +12,71 @@
 
 namespace fresco {
 namespace {
+
+/// A run with version 0 of both networks, whose orders are for actor 1.
+class ServedRunTest : public ::testing::Test {
+ protected:
+  ServedRunTest() {
+    Complete(run_.store(), {NetworkKind::kCurrent, 0}, parameters_);
+    Complete(run_.store(), {NetworkKind::kTarget, 0}, parameters_);
+  }
+
+  /// Hands over these orders of a window that begins at `committed`; returns the contradictions.
+  int Give(int64_t committed, const std::vector<int64_t>& indices, int64_t now_us) {
+    orders_t message{};
+    message.committed_orders = committed;
+    for (const int64_t index : indices) {
+      message.orders.push_back(ToWire(TrainOrder(index, 1), 1, 0));
+    }
+    return run_.HandleOrders(message, 1, now_us);
+  }
+  void FlyAll(int64_t now_us) {
+    do {
+      run_.Step(now_us);
+    } while (!run_.Idle());
+  }
+
+  Experiment experiment_ = SmallField();
+  int64_t parameters_ = experiment_.network_shape().parameter_count();
+  std::vector<std::pair<int64_t, bool>> sent_;  // index, and whether again
+  ServedRun run_{
+      experiment_, RunIdentity{7, experiment_.hash()}, 4,
+      [this](const Episode& episode, bool again) { sent_.emplace_back(episode.order_index, again); }};
+};
+
+TEST_F(ServedRunTest, SendsAKeptEpisodeAgainButNotTooSoon) {
+  EXPECT_EQ(Give(0, {0}, 0), 0);
+  FlyAll(1000);
+  EXPECT_EQ(Give(0, {0}, 1000 + kResendPeriodUs - 1), 0);
+  EXPECT_EQ(Give(0, {0}, 1000 + kResendPeriodUs), 0);
+  EXPECT_EQ(Give(0, {0}, 1000 + kResendPeriodUs), 0);
+  EXPECT_EQ(sent_, (std::vector<std::pair<int64_t, bool>>{{0, false}, {0, true}}));
+}
+
+TEST_F(ServedRunTest, FliesAnewWhatHasLeftTheWindow) {
+  Give(0, {0, 1}, 0);
+  FlyAll(0);
+  Give(1, {}, 0);                    // order 0 is committed
+  Give(0, {0, 1}, kResendPeriodUs);  // the learner was resumed
+  FlyAll(kResendPeriodUs);
+  EXPECT_EQ(sent_, (std::vector<std::pair<int64_t, bool>>{{0, false}, {1, false}, {1, true}, {0, false}}));
+}
+
+TEST_F(ServedRunTest, CountsWhatLiesBeyondTheWindow) {
+  const int64_t end = 100 + MaximumOrdersInFlight(experiment_.schedule().window());
+  EXPECT_EQ(Give(100, {99, end - 1}, 0), 0);  // one is done, which is no contradiction
+  EXPECT_EQ(Give(100, {end, -1}, 0), 2);
+  EXPECT_EQ(Give(-1, {}, 0), 1);
+  EXPECT_EQ(Give((int64_t{1} << 32) + 1, {}, 0), 1);
+}
+
+TEST_F(ServedRunTest, IsDeafToWhatIsMuchOlderThanItsNewestMessage) {
+  EXPECT_TRUE(run_.Hear(5 * kStaleUs, 10));
+  EXPECT_TRUE(run_.Hear(4 * kStaleUs, 20));
+  EXPECT_FALSE(run_.Hear(4 * kStaleUs - 1, 30));
+  EXPECT_EQ(run_.last_heard_us(), 20);
+  EXPECT_EQ(run_.newest_utime(), 5 * kStaleUs);
+}
 
 class ActorMemoryTest : public ::testing::Test {
  protected:
