@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
 
 namespace fresco {
@@ -55,7 +56,7 @@ void Actor::HandleRun(const run_t& message) {
   const RunIdentity identity = IdentityOf(message);
   if (run_ != nullptr && run_->identity() == identity) {
     if (IsMine(identity, message.utime) && message.finished != 0) {
-      spdlog::info("run {:016x} is over", static_cast<uint64_t>(identity.run_id));
+      spdlog::info("run {} is over", IdentifierText(identity.run_id));
       run_.reset();
       run_over_ = true;
     }
@@ -102,16 +103,17 @@ void Actor::Join(const run_t& message, const std::string& text) {
     RefuseIfTooLarge({ActorMemory(experiment, capacity)}, options_.available_memory());
     if (run_ != nullptr) {
       spdlog::warn(
-          "leaving run {:016x}: its messages are not of now by this host's clock, those of another run are",
-          static_cast<uint64_t>(run_->identity().run_id));
+          "leaving run {}: its messages are not of now by this host's clock, those of another run are",
+          IdentifierText(run_->identity().run_id));
     }
-    run_ = std::make_unique<ServedRun>(std::move(experiment), IdentityOf(message), capacity,
-                                       [this](const Episode& episode, bool again) { Send(episode, again); });
+    run_ =
+        std::make_unique<ServedRun>(std::move(experiment), IdentityOf(message), capacity,
+                                    [this](const OrderResult& result, bool again) { Send(result, again); });
     run_->Hear(std::max<int64_t>(0, message.utime), attention_.now_us());
     ++totals_.runs;
     run_over_ = false;
-    spdlog::info("serving run {:016x}, configuration {:08x}, {} environments",
-                 static_cast<uint64_t>(message.run_id), IdentityOf(message).config_hash, capacity);
+    spdlog::info("serving run {}, configuration {:08x}, {} environments", IdentifierText(message.run_id),
+                 IdentityOf(message).config_hash, capacity);
   } catch (const Error& error) {
     NoteRefusal(message.run_id, error.what());
   }
@@ -121,8 +123,7 @@ void Actor::Join(const run_t& message, const std::string& text) {
 void Actor::NoteRefusal(int64_t run_id, const char* reason) {
   constexpr int64_t kPeriodUs = 10'000'000;
   if (now_us_ >= next_refusal_us_) {
-    spdlog::error("run {:016x} on {} can't be served: {}", static_cast<uint64_t>(run_id), channels_.run,
-                  reason);
+    spdlog::error("run {} on {} can't be served: {}", IdentifierText(run_id), channels_.run, reason);
     next_refusal_us_ = now_us_ + kPeriodUs;
     refused_run_ = run_id;
   }
@@ -177,20 +178,20 @@ bool Actor::Step(int64_t now_us) {
 /// Silence is what was listened to: a process that was stopped finds its messages waiting when it wakes.
 void Actor::LeaveSilentRun() {
   if (run_ != nullptr && attention_.now_us() - run_->last_heard_us() > kSilentRunUs) {
-    spdlog::warn("nothing heard of run {:016x} for {} s; looking for a run",
-                 static_cast<uint64_t>(run_->identity().run_id), kSilentRunUs / 1'000'000);
+    spdlog::warn("nothing heard of run {} for {} s; looking for a run",
+                 IdentifierText(run_->identity().run_id), kSilentRunUs / 1'000'000);
     run_.reset();
   }
 }
 
-void Actor::Send(const Episode& episode, bool again) {
+void Actor::Send(const OrderResult& result, bool again) {
   if (again) {
     ++totals_.resent_episodes;
   } else {
     ++totals_.episodes;
-    totals_.transitions += episode.transitions();
+    totals_.transitions += result.episode.transitions();
   }
-  SplitEpisode(run_->world(), episode, options_.actor_id, [this](const transitions_t& message) {
+  SplitResult(run_->world(), result, options_.actor_id, [this](const transitions_t& message) {
     bus_.Publish(channels_.transitions, message, run_->identity());
   });
 }
@@ -243,9 +244,9 @@ ActorTotals Actor::totals() const {
 
 std::string Actor::Description() const {
   return fmt::format(
-      "actor {:016x}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} versions completed, "
+      "actor {}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} versions completed, "
       "the slowest within {:.1f} ms, {} messages received, {}",
-      static_cast<uint64_t>(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
+      IdentifierText(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
       totals_.resent_episodes, totals_.completed_versions, Milliseconds(totals_.longest_assembly_us),
       totals_.received_messages, Text(totals().rejected));
 }

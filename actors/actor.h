@@ -80,7 +80,7 @@ class Actor {
   void Join(const run_t& message, const std::string& text);
   void NoteRefusal(int64_t run_id, const char* reason);
   void LeaveSilentRun();
-  void Send(const Episode& episode, bool again);
+  void Send(const OrderResult& result, bool again);
   void SendStatusIfDue(int64_t now_us);
   actor_status_t Status(int64_t now_us);
 

@@ -8,7 +8,6 @@
 #include "core/command_line.h"
 #include "core/identifier.h"
 #include "core/signals.h"
-#include "msgs/settings.h"
 
 namespace fresco {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
 #include "msgs/versions_in_flight.h"
 
@@ -25,7 +26,7 @@ std::string Names(const std::vector<chunk_range_t>& ranges) {
 
 }  // namespace
 
-ServedRun::ServedRun(Experiment experiment, RunIdentity identity, int capacity, SendEpisode send)
+ServedRun::ServedRun(Experiment experiment, RunIdentity identity, int capacity, SendResult send)
     : experiment_(std::move(experiment)),
       world_(experiment_.scenario()),
       identity_(identity),
@@ -71,7 +72,7 @@ void ServedRun::Accept(const Order& order, int64_t now_us) {
   if (flown != flown_.end() && flown->second.order == order) {
     if (now_us - flown->second.sent_us >= kResendPeriodUs) {
       flown->second.sent_us = now_us;
-      send_(flown->second.episode, true);
+      send_(flown->second.result, true);
     }
   } else if (!flyer_.IsFlying(order.index)) {
     waiting_.insert_or_assign(order.index, order);
@@ -95,9 +96,9 @@ void ServedRun::KeepWindow() {
 
 void ServedRun::Step(int64_t now_us) {
   StartFlights();
-  flyer_.Step([&](const Order& order, const Episode& episode) {
-    send_(episode, false);
-    flown_.insert_or_assign(order.index, Flown{order, episode, now_us});
+  flyer_.Step([&](const Order& order, OrderResult& result) {
+    send_(result, false);
+    flown_.insert_or_assign(order.index, Flown{order, std::move(result), now_us});
   });
 }
 
@@ -150,9 +151,9 @@ std::string ServedRun::WaitsFor(const Order& order) const {
 
 std::string ServedRun::StateText(int64_t now_us) const {
   std::string text =
-      fmt::format("\n  run {:016x}, last heard of {:.1f} s ago\n  {} orders flying, {} flown and kept",
-                  static_cast<uint64_t>(identity_.run_id),
-                  static_cast<double>(now_us - last_heard_us_) * 1e-6, flyer_.open_flights(), flown_.size());
+      fmt::format("\n  run {}, last heard of {:.1f} s ago\n  {} orders flying, {} flown and kept",
+                  IdentifierText(identity_.run_id), static_cast<double>(now_us - last_heard_us_) * 1e-6,
+                  flyer_.open_flights(), flown_.size());
   size_t lines = 0;
   for (const auto& [index, order] : waiting_) {
     if (++lines > kLongestList) {
@@ -170,7 +171,7 @@ MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
   const int64_t orders = MaximumOrdersInFlight(experiment.schedule().window());
   const VersionsInFlight versions = MostVersionsInFlight(experiment);
   const int64_t wanted = std::min(orders, versions.current) + std::min(orders, versions.target);
-  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + LongestEpisodeBytes(world);
+  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + LongestResultBytes(world);
   return {"actor",
           1,
           {{"run.environments_per_actor", "its environments",

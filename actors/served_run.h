@@ -18,11 +18,11 @@ namespace fresco {
 
 class ServedRun {
  public:
-  /// Sends an episode to the learner; `again` says whether it was sent before.
-  using SendEpisode = std::function<void(const Episode&, bool again)>;
+  /// Sends the result of an order to the learner; `again` says whether it was sent before.
+  using SendResult = std::function<void(const OrderResult&, bool again)>;
 
   /// Flies up to `capacity` (>= 1) orders at a time.
-  ServedRun(Experiment experiment, RunIdentity identity, int capacity, SendEpisode send);
+  ServedRun(Experiment experiment, RunIdentity identity, int capacity, SendResult send);
 
   RunIdentity identity() const { return identity_; }
   const World& world() const { return world_; }
@@ -52,10 +52,10 @@ class ServedRun {
   std::string StateText(int64_t now_us) const;
 
  private:
-  /// A flown episode and when it was sent.
+  /// What an order brought, and when it was sent.
   struct Flown {
     Order order;
-    Episode episode;
+    OrderResult result;
     int64_t sent_us = 0;
   };
 
@@ -70,7 +70,7 @@ class ServedRun {
   World world_;
   RunIdentity identity_;
   int capacity_;
-  SendEpisode send_;
+  SendResult send_;
   NetworkStore store_;
   Flyer flyer_;
   int64_t committed_ = 0;             // orders below are done

@@ -18,28 +18,47 @@
 namespace fresco {
 namespace {
 
-[[noreturn]] void RunChild(char* const* arguments, int log, pid_t parent) {
+[[noreturn]] void RunChild(char* const* arguments, const ChildProcess::Streams& streams, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) {
     _exit(1);  // the parent died before the line above
   }
-  dup2(log, STDOUT_FILENO);
-  dup2(log, STDERR_FILENO);
+  dup2(streams.input, STDIN_FILENO);
+  dup2(streams.output, STDOUT_FILENO);
+  dup2(streams.errors, STDERR_FILENO);
   close_range(STDERR_FILENO + 1, ~0u, 0);  // LCM's sockets, which it leaves open to children
-  execv(arguments[0], arguments);
+  execvp(arguments[0], arguments);
   dprintf(STDERR_FILENO, "can't start %s: %s\n", arguments[0], std::strerror(errno));
-  _exit(127);
+  _exit(ChildProcess::kCannotRun);
 }
+
+/// A log, open to be appended to.
+class LogFile {
+ public:
+  explicit LogFile(const std::filesystem::path& path)
+      : descriptor_(open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {
+    if (descriptor_ < 0) {
+      throw Failure("can't write the log " + path.string() + ": " + std::strerror(errno));
+    }
+  }
+  ~LogFile() { close(descriptor_); }
+  LogFile(const LogFile&) = delete;
+  LogFile& operator=(const LogFile&) = delete;
+
+  ChildProcess::Streams streams() const { return {STDIN_FILENO, descriptor_, descriptor_}; }
+
+ private:
+  int descriptor_;
+};
 
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log)
+    : ChildProcess(arguments, LogFile(log).streams()) {}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const Streams& streams)
     : started_us_(MonotonicMicroseconds()) {
-  const int fd = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (fd < 0) {
-    throw Failure("can't write the log " + log.string() + ": " + std::strerror(errno));
-  }
   std::vector<char*> pointers;
   for (const std::string& argument : arguments) {
     pointers.push_back(const_cast<char*>(argument.c_str()));
@@ -48,17 +67,17 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ == 0) {
-    RunChild(pointers.data(), fd, parent);
+    RunChild(pointers.data(), streams, parent);
   }
-  close(fd);
   if (pid_ < 0) {
     throw Failure("can't start " + arguments.front() + ": " + std::strerror(errno));
   }
+  setpgid(pid_, pid_);  // here, too, since Kill may come before the child has done it
 }
 
 ChildProcess::~ChildProcess() {
   if (!ExitStatus()) {
-    Signal(SIGKILL);
+    Kill();
     waitpid(pid_, nullptr, 0);
   }
 }
@@ -67,6 +86,15 @@ std::optional<int> ChildProcess::ExitStatus() {
   int status = 0;
   if (!exit_status_ && waitpid(pid_, &status, WNOHANG) == pid_) {
     exit_status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  return exit_status_;
+}
+
+std::optional<int> ChildProcess::Wait(int64_t timeout_us) {
+  constexpr int kWaitMs = 2;
+  const int64_t begin_us = MonotonicMicroseconds();
+  while (!ExitStatus() && MonotonicMicroseconds() - begin_us <= timeout_us) {
+    poll(nullptr, 0, kWaitMs);
   }
   return exit_status_;
 }
@@ -83,15 +111,15 @@ int ChildProcess::End(int64_t patience_us) {
 }
 
 int ChildProcess::WaitForEnd(int64_t patience_us) {
-  const int64_t deadline_us = MonotonicMicroseconds() + patience_us;
-  while (!ExitStatus()) {
-    if (MonotonicMicroseconds() > deadline_us) {
-      Signal(SIGKILL);
-    }
-    constexpr int kWaitMs = 5;
-    poll(nullptr, 0, kWaitMs);
+  if (!Wait(patience_us)) {
+    Kill();
   }
-  return *exit_status_;
+  return *Wait(INT64_MAX);
+}
+
+/// Kills the whole process group.
+void ChildProcess::Kill() {
+  kill(-pid_, SIGKILL);
 }
 
 std::string LastLines(const std::filesystem::path& log, int lines) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
 #include "msgs/scenario_codec.h"
 
@@ -91,10 +92,10 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
   if (!IsOurs(IdentityOf(message))) {
     return;
   }
-  if (!ToEpisodeRun(*world_, message, run_)) {
+  if (!FromWire(*world_, message, part_)) {
     return Reject(&BusCounters::rejected_malformed);
   }
-  switch (ledger_.Add(run_)) {
+  switch (ledger_.Add(part_)) {
     case Ledger::Arrival::kAccepted:
       return;
     case Ledger::Arrival::kDuplicate:
@@ -107,10 +108,10 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
     case Ledger::Arrival::kCompleted:
       break;
   }
-  roster_.Completed(run_.order_index, message.actor_id, clock_.now_us());
-  if (run_.order_index == ledger_.committed()) {
+  roster_.Completed(part_.order_index, message.actor_id, clock_.now_us());
+  if (part_.order_index == ledger_.committed()) {
     next_is_complete_.notify_one();
-  } else if (!ledger_.IsComplete(run_.order_index - 1)) {
+  } else if (!ledger_.IsComplete(part_.order_index - 1)) {
     ++counters_.reordered_episodes;
   }
 }
@@ -254,13 +255,8 @@ learner_status_t LearnerNode::Status(int64_t now_us) {
 }
 
 void LearnerNode::WarnIfNeeded() {
-  std::string foreign_key;
-  {
-    const std::lock_guard lock(mutex_);
-    foreign_key = bus_.KeyMismatchNews();
-  }
-  if (!foreign_key.empty()) {
-    spdlog::warn("{}", foreign_key);
+  if (const std::string news = bus_.KeyMismatchNews(); !news.empty()) {
+    spdlog::warn("{}", news);
   }
   if (const auto line = starvation_warning_.Note(StarvedSeconds(), WaitingFor())) {
     spdlog::warn("{}", *line);
@@ -335,10 +331,10 @@ std::string LearnerNode::StateText() const {
   const BusCounters counters = CountersLocked();
   const std::string waiting_for = WaitingForLocked();
   std::string text = fmt::format(
-      "state\n  run {:016x}, configuration {:08x}\n  {} orders committed, {} in flight; {} of {} episodes, "
+      "state\n  run {}, configuration {:08x}\n  {} orders committed, {} in flight; {} of {} episodes, "
       "{} transitions, {} updates",
-      static_cast<uint64_t>(identity_.run_id), identity_.config_hash, ledger_.committed(),
-      ledger_.in_flight(), progress.episodes, total_episodes_, progress.transitions, progress.updates);
+      IdentifierText(identity_.run_id), identity_.config_hash, ledger_.committed(), ledger_.in_flight(),
+      progress.episodes, total_episodes_, progress.transitions, progress.updates);
   text += waiting_for.empty()
               ? "\n  waits for nobody"
               : fmt::format("\n  waits for {}; starved for {:.1f} s", waiting_for, StarvedSecondsLocked());

@@ -9,6 +9,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/identifier.h"
 #include "core/signals.h"
 #include "msgs/protocol_times.h"
 #include "msgs/versions_in_flight.h"
@@ -81,11 +82,11 @@ void LearnerProcess::RefuseUsedBus() {
     bus_->Poll(until_us - MonotonicMicroseconds());
   }
   if (node_.foreign_run() != 0) {
-    throw UsageError(fmt::format(
-        "run {:016x} is already on {} with channel prefix {}; give this run a port of its own, e.g. "
-        "--lcm-url 'udpm://239.255.76.67:7668?ttl=0', or end the other one",
-        static_cast<uint64_t>(node_.foreign_run()), experiment_.run().lcm_url(),
-        experiment_.run().channel_prefix()));
+    throw UsageError(
+        fmt::format("run {} is already on {} with channel prefix {}; give this run a port of its own, e.g. "
+                    "--lcm-url 'udpm://239.255.76.67:7668?ttl=0', or end the other one",
+                    IdentifierText(node_.foreign_run()), experiment_.run().lcm_url(),
+                    experiment_.run().channel_prefix()));
   }
 }
 

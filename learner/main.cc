@@ -25,8 +25,8 @@ struct Arguments {
 };
 
 int Run(const Experiment& experiment, Bus& bus, LearnerOptions options) {
-  spdlog::info("run {:016x}, configuration {:08x}, on {}", static_cast<uint64_t>(options.run_id),
-               experiment.hash(), experiment.run().lcm_url());
+  spdlog::info("run {}, configuration {:08x}, on {}", IdentifierText(options.run_id), experiment.hash(),
+               experiment.run().lcm_url());
   return LearnerProcess(experiment, bus, std::move(options)).Run() ? 0 : 1;
 }
 

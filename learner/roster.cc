@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
 #include "msgs/weights_codec.h"
 
@@ -227,8 +228,8 @@ std::string Roster::StateText(int64_t now_us) const {
       return text + fmt::format("\n  and {} more actors", actors_.size() - kLongestList);
     }
     const std::string flies = orders.contains(id) ? "orders" + orders.at(id) : "no order";
-    text += fmt::format("\n  actor {:016x} {}: heard of {:.1f} s ago, {:.0f} transitions/s, {} late, {}",
-                        static_cast<uint64_t>(id), NameOf(actor), Seconds(now_us - actor.last_heard_us),
+    text += fmt::format("\n  actor {} {}: heard of {:.1f} s ago, {:.0f} transitions/s, {} late, {}",
+                        IdentifierText(id), NameOf(actor), Seconds(now_us - actor.last_heard_us),
                         actor.transitions_per_s, actor.late_orders, flies.substr(0, 200));
   }
   return text;

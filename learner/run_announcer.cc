@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
 
 namespace fresco {
@@ -55,9 +56,9 @@ bool RunAnnouncer::IsForeign(const run_t& message, const std::string& channel, i
   if (!warned) {  // once: whoever floods the bus with runs is not to fill the log
     warned = true;
     spdlog::warn(
-        "{}, {:016x}, is on {}: it does no harm, but shares the bandwidth",
+        "{}, {}, is on {}: it does no harm, but shares the bandwidth",
         current ? "another run" : "a recording of a run (or a run whose clock differs from this host's)",
-        static_cast<uint64_t>(message.run_id), channel);
+        IdentifierText(message.run_id), channel);
   }
   foreign_run_ = current ? message.run_id : foreign_run_;
   return true;

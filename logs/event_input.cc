@@ -1,13 +1,95 @@
 #include "logs/event_input.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <limits>
+
+#include "bus/bus.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/live_line.h"
 #include "core/signals.h"
+#include "logs/bus_losses.h"
 
 namespace fresco {
+namespace {
+
+bool IsLcmUrl(const std::string& source) {
+  return source.find("://") != std::string::npos;
+}
+
+}  // namespace
+
+class EventInput::Source {
+ public:
+  virtual ~Source() = default;
+  virtual std::optional<LcmEvent> Next() = 0;
+  virtual MergedEventLogs::Totals totals() const = 0;
+  virtual void WarnOfLosses() const = 0;
+};
+
+class EventInput::Logs : public Source {
+ public:
+  explicit Logs(const std::vector<std::string>& paths) : logs_({paths.begin(), paths.end()}) {}
+
+  std::optional<LcmEvent> Next() override { return StopSignal::Requested() ? std::nullopt : logs_.Next(); }
+  MergedEventLogs::Totals totals() const override { return logs_.totals(); }
+
+  void WarnOfLosses() const override {
+    for (const std::string& problem : logs_.totals().Problems()) {
+      spdlog::warn("{}", problem);
+    }
+  }
+
+ private:
+  MergedEventLogs logs_;
+};
+
+class EventInput::LiveBus : public Source {
+ public:
+  LiveBus(const std::string& url, double seconds) : bus_(OpenLcmBus(url)) {
+    if (seconds > 0) {
+      end_us_ = MonotonicMicroseconds() + static_cast<int64_t>(1e6 * seconds);
+    }
+    bus_->SubscribeToAll([this](const LcmEvent& event) { Take(event); });
+  }
+
+  std::optional<LcmEvent> Next() override {
+    constexpr int64_t kPollUs = 100'000;
+    taken_ = false;
+    while (!taken_ && !StopSignal::Requested()) {
+      const int64_t left_us = end_us_ - MonotonicMicroseconds();
+      if (left_us <= 0) {
+        return std::nullopt;
+      }
+      bus_->Poll(std::min(kPollUs, left_us), 1);
+    }
+    return taken_ ? std::optional(event_) : std::nullopt;
+  }
+
+  MergedEventLogs::Totals totals() const override { return {bytes_, 0, 0}; }
+  void WarnOfLosses() const override { WarnOfBusLosses(*bus_); }
+
+ private:
+  /// Copies the event, since it is valid during the call only.
+  void Take(const LcmEvent& event) {
+    channel_.assign(event.channel);
+    message_.assign(event.message.begin(), event.message.end());
+    event_ = {event.number, event.utime, channel_, message_};
+    bytes_ += static_cast<int64_t>(channel_.size() + message_.size());
+    taken_ = true;
+  }
+
+  std::unique_ptr<Bus> bus_;
+  int64_t end_us_ = std::numeric_limits<int64_t>::max();
+  std::string channel_;
+  std::vector<std::byte> message_;
+  LcmEvent event_;
+  int64_t bytes_ = 0;
+  bool taken_ = false;
+};
 
 void AddEventInput(CLI::App& app, EventInputOptions& options) {
   app.add_option("LOG", options.sources, "Event logs, read as one; or one LCM URL to listen to")->required();
@@ -27,9 +109,33 @@ void AddEventInput(CLI::App& app, EventInputOptions& options) {
 }
 
 EventInput::EventInput(const EventInputOptions& options)
-    : is_live_(IsLcmUrl(options.sources.front())),
-      selection_(options.selection),
-      source_(OpenEvents(options.sources, options.seconds)) {}
+    : is_live_(std::any_of(options.sources.begin(), options.sources.end(), IsLcmUrl)),
+      selection_(options.selection) {
+  if (is_live_ && options.sources.size() > 1) {
+    throw UsageError("expected event logs, or one LCM URL alone; found " + options.sources[0] + " beside " +
+                     options.sources[1]);
+  }
+  if (is_live_) {
+    source_ = std::make_unique<LiveBus>(options.sources.front(), options.seconds);
+  } else {
+    source_ = std::make_unique<Logs>(options.sources);
+  }
+}
+
+EventInput::~EventInput() = default;
+
+std::optional<LcmEvent> EventInput::Next() {
+  while (const auto event = source_->Next()) {
+    if (selection_.Wants(*event)) {
+      return event;
+    }
+  }
+  return std::nullopt;
+}
+
+void EventInput::WarnOfLosses() const {
+  source_->WarnOfLosses();
+}
 
 MergedEventLogs::Totals EventInput::ForEach(const std::function<void(const LcmEvent& event)>& handle) {
   constexpr int64_t kEventsPerLook = 4096;
@@ -50,7 +156,7 @@ MergedEventLogs::Totals EventInput::ForEach(const std::function<void(const LcmEv
   if (StopSignal::Requested() && !is_live_) {
     throw Failure("interrupted before the end of the logs");
   }
-  source_->WarnOfLosses();
+  WarnOfLosses();
   return source_->totals();
 }
 

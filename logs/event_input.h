@@ -1,21 +1,22 @@
-// The options of the subcommands of `fresco log` that read events, and the loop over the events.
+// What the subcommands of `fresco log` read: events of logs or of a live bus, and the options that choose
+// them.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bus/bus.h"
 #include "logs/event_selection.h"
-#include "logs/event_source.h"
 #include "logs/merged_event_logs.h"
 
 namespace fresco {
 
 struct EventInputOptions {
-  std::vector<std::string> sources;  ///< paths of logs, or one LCM URL; see OpenEvents
+  std::vector<std::string> sources;  ///< paths of logs, which are read as one; or a single LCM URL
   double seconds = 0;                ///< how long to listen to a URL; 0: until the program is asked to stop
   SelectionOptions selection;
 };
@@ -30,16 +31,32 @@ class EventInput {
   /// Checks the options and opens the sources. A subcommand makes its output after that, so wrong use leaves
   /// nothing behind. Throws UsageError.
   explicit EventInput(const EventInputOptions& options);
+  ~EventInput();
+
+  /// Whether the events come from a bus.
+  bool is_live() const { return is_live_; }
+
+  /// Returns the next selected event, valid until the next call; nullopt at the end, and if the program is
+  /// asked to stop.
+  std::optional<LcmEvent> Next();
+  /// The time of an event, seconds after the first one, selected or not.
+  double SecondsOf(const LcmEvent& event) const { return selection_.SecondsOf(event); }
+  /// Logs warnings for what could not be handed out: damage of a log, losses of a bus.
+  void WarnOfLosses() const;
 
   /// Calls `handle` for every selected event, in order. Shows progress on standard error, and at the end
-  /// warns there of damaged, cut or lost events. Throws Failure if the program is interrupted while it reads
-  /// logs.
+  /// warns of losses. Returns what was read; for a bus, only the number of bytes. Throws Failure if the
+  /// program is interrupted while it reads logs.
   MergedEventLogs::Totals ForEach(const std::function<void(const LcmEvent& event)>& handle);
 
  private:
+  class Source;
+  class Logs;
+  class LiveBus;
+
   bool is_live_;
   EventSelection selection_;
-  std::unique_ptr<EventSource> source_;
+  std::unique_ptr<Source> source_;
 };
 
 }  // namespace fresco

@@ -21,8 +21,8 @@ constexpr uint32_t kSyncWord = 0xEDA1DA01;
 constexpr size_t kSyncBytes = 4;
 constexpr size_t kBlockBytes = 1 << 20;
 // The limits of LCM's own programs.
-constexpr int32_t kMaximumChannelBytes = 999;
-constexpr int32_t kMaximumMessageBytes = 1 << 28;
+constexpr int32_t kMostChannelBytes = 999;
+constexpr int32_t kMostMessageBytes = 1 << 28;
 
 bool IsSyncWord(const std::byte* bytes) {
   return ReadBigEndian<uint32_t>(bytes) == kSyncWord;
@@ -37,8 +37,8 @@ struct Header {
         begins_with_sync_word(IsSyncWord(bytes)) {}
 
   bool IsPossible() const {
-    return begins_with_sync_word && channel_bytes > 0 && channel_bytes <= kMaximumChannelBytes &&
-           message_bytes >= 0 && message_bytes <= kMaximumMessageBytes;
+    return begins_with_sync_word && channel_bytes > 0 && channel_bytes <= kMostChannelBytes &&
+           message_bytes >= 0 && message_bytes <= kMostMessageBytes;
   }
   size_t event_bytes() const {
     return kEventHeaderBytes + static_cast<size_t>(channel_bytes) + static_cast<size_t>(message_bytes);

@@ -1,17 +1,36 @@
-// Selects events by time, channel and run, in the same way for every subcommand of `fresco log`. Use a new
-// object for each pass through the events. Only one thread may use an object.
+// Selects events of a bus or a log by time, channel and run. Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
+#include <regex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bus/bus.h"
-#include "logs/channel_filter.h"
 
 namespace fresco {
+
+/// Selects channels by regular expressions, which must match a channel's whole name, as in LCM.
+class ChannelFilter {
+ public:
+  /// Selects every channel.
+  ChannelFilter() = default;
+  /// Selects the channels that match one of the expressions; every channel if there are no expressions.
+  /// Throws UsageError if one is not a regular expression; the error names `option`, the command line option
+  /// it came from.
+  ChannelFilter(const std::vector<std::string>& expressions, const std::string& option);
+
+  bool Matches(std::string_view channel);
+  bool lets_all_through() const { return expressions_.empty(); }
+
+ private:
+  std::vector<std::regex> expressions_;
+  std::map<std::string, bool, std::less<>> known_;  // results for names that came before
+};
 
 struct SelectionOptions {
   std::vector<std::string> channels = {};  ///< regular expressions of channels to select; empty: all
@@ -21,6 +40,8 @@ struct SelectionOptions {
   std::string run = {};  ///< id of a run in hexadecimal digits, as in summary.json; empty: all
 };
 
+/// Selects events in the same way for every subcommand of `fresco log`. Use a new object for each pass
+/// through the events.
 class EventSelection {
  public:
   /// Throws UsageError that names the option if its value is wrong.
@@ -30,6 +51,9 @@ class EventSelection {
   /// belong to no run (statuses of actors without a run, foreign messages) are selected whatever `run` is.
   /// Call it for every event, since times count from the first one.
   bool Wants(const LcmEvent& event);
+
+  /// The time of an event, seconds after the first one. Call it after Wants.
+  double SecondsOf(const LcmEvent& event) const;
 
  private:
   bool IsOfAnotherRun(const LcmEvent& event) const;

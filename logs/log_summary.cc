@@ -1,11 +1,17 @@
 #include "logs/log_summary.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/identifier.h"
 
 namespace fresco {
 namespace {
+
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr size_t kMaximumRecords = 4096;  // of each kind; a limit, since anybody may send names
 constexpr int64_t kMaximumOrder = int64_t{1} << 32;
@@ -29,6 +35,116 @@ void NoteType(const char* type, std::span<const std::byte> message, ChannelTraff
   } else if (!same) {
     channel.type = "mixed";
   }
+}
+
+constexpr size_t kShownGaps = 8;
+
+double RateHz(int64_t events, const LogSummary& summary) {
+  return summary.duration_s() > 0 ? static_cast<double>(events) / summary.duration_s() : 0.0;
+}
+
+double Megabytes(int64_t bytes) {
+  return 1e-6 * static_cast<double>(bytes);
+}
+
+std::string TimeText(int64_t utime) {
+  constexpr int64_t kMicroseconds = 1'000'000;
+  constexpr int64_t kYear3000 = 32'503'680'000;  // a limit, since a damaged event may have any time
+  const int64_t seconds = std::clamp<int64_t>(utime / kMicroseconds, 0, kYear3000);
+  return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:03} UTC", fmt::gmtime(static_cast<std::time_t>(seconds)),
+                     std::max<int64_t>(utime, 0) % kMicroseconds / 1000);
+}
+
+std::string HeadText(const LogSummary& summary, const MergedEventLogs::Totals& totals) {
+  std::string text = fmt::format("{} events, {:.1f} MB", summary.events(), Megabytes(totals.bytes));
+  if (summary.events() > 0) {
+    text += fmt::format(", {:.3f} s from {} on", summary.duration_s(), TimeText(summary.begin_utime()));
+  }
+  return fmt::format(
+      "{}\n{} foreign messages, {} damaged ones; {} damaged bytes between events, {} bytes of a last event "
+      "that was cut off\n",
+      text, summary.foreign_messages(), summary.damaged_messages(), totals.damaged_bytes, totals.torn_bytes);
+}
+
+std::string ChannelTable(const LogSummary& summary) {
+  std::string text = fmt::format("\n{:<26} {:<25} {:>9} {:>9} {:>10} {:>8}\n", "channel", "type", "events",
+                                 "per s", "MB", "damaged");
+  for (const auto& [name, channel] : summary.channels()) {
+    text += fmt::format("{:<26} {:<25} {:>9} {:>9.1f} {:>10.3f} {:>8}\n", name, channel.type, channel.events,
+                        RateHz(channel.events, summary), Megabytes(channel.message_bytes), channel.damaged);
+  }
+  return text;
+}
+
+std::string RunText(int64_t run_id, const RunTraffic& run) {
+  std::string text = fmt::format("\nrun {}, configuration {:08x}", IdentifierText(run_id), run.config_hash);
+  text += run.config_known ? " (complete)"
+                           : fmt::format(" (only {} of its parts recorded)", run.announcements.parts());
+  text += run.finished ? ", finished\n" : ", not finished\n";
+  if (run.first_order) {
+    text += fmt::format("  orders {} .. {}, {} committed, {} without any transition\n", *run.first_order,
+                        run.last_order, run.committed_orders, run.orders_without_transitions());
+  }
+  const EpisodeCoverage& episodes = run.episodes;
+  text += fmt::format(
+      "  episodes: {} whole, {} partial; transitions: {}, {} missing, {} sent again; flown by {} actors\n",
+      episodes.whole(), episodes.partial(), episodes.transitions(), episodes.missing_transitions(),
+      episodes.repeated_transitions(), run.actors.size());
+  if (run.learner_status) {
+    text +=
+        fmt::format("  learner, at the end: {} of {} episodes, {} updates\n", run.learner_status->episodes,
+                    run.learner_status->total_episodes, run.learner_status->updates);
+  }
+  return text;
+}
+
+std::string ActorTable(const LogSummary& summary) {
+  std::string text = fmt::format("\n{:<20} {:<20} {:>8} {:>9} {:>8}  {}\n", "actor", "host", "pid",
+                                 "statuses", "missing", "numbers missing");
+  for (const auto& [actor_id, actor] : summary.actors()) {
+    std::string gaps;
+    for (const Interval& gap : actor.sequences.Gaps(kShownGaps)) {
+      gaps += fmt::format(" {}-{}", gap.first, gap.last);
+    }
+    text += fmt::format("{:<20} {:<20} {:>8} {:>9} {:>8} {}\n", actor_id, actor.host, actor.pid,
+                        actor.statuses, actor.sequences.missing(), gaps);
+  }
+  return text;
+}
+
+OrderedJson RunJson(int64_t run_id, const RunTraffic& run) {
+  OrderedJson json = {{"run_id", IdentifierText(run_id)},
+                      {"config_hash", fmt::format("{:08x}", run.config_hash)},
+                      {"config_known", run.config_known},
+                      {"finished", run.finished},
+                      {"first_order", run.first_order ? OrderedJson(*run.first_order) : OrderedJson(nullptr)},
+                      {"last_order", run.first_order ? OrderedJson(run.last_order) : OrderedJson(nullptr)},
+                      {"committed_orders", run.committed_orders},
+                      {"orders_without_transitions", run.orders_without_transitions()},
+                      {"episodes_whole", run.episodes.whole()},
+                      {"episodes_partial", run.episodes.partial()},
+                      {"transitions", run.episodes.transitions()},
+                      {"transitions_missing", run.episodes.missing_transitions()},
+                      {"transitions_repeated", run.episodes.repeated_transitions()},
+                      {"actors", run.actors}};
+  if (run.learner_status) {
+    json["learner_episodes"] = run.learner_status->episodes;
+    json["learner_updates"] = run.learner_status->updates;
+  }
+  return json;
+}
+
+OrderedJson ActorJson(int64_t actor_id, const ActorTraffic& actor) {
+  OrderedJson gaps = OrderedJson::array();
+  for (const Interval& gap : actor.sequences.Gaps(kShownGaps)) {
+    gaps.push_back({gap.first, gap.last});
+  }
+  return {{"actor_id", actor_id},
+          {"host", actor.host},
+          {"pid", actor.pid},
+          {"statuses", actor.statuses},
+          {"missing", actor.sequences.missing()},
+          {"first_gaps", gaps}};
 }
 
 }  // namespace
@@ -117,11 +233,7 @@ void LogSummary::Take(const run_t& message) {
   }
   run->config_hash = IdentityOf(message).config_hash;
   run->finished = run->finished || message.finished != 0;
-  if (message.part_count <= kMaximumParts && message.part_index >= 0 &&
-      message.part_index < message.part_count) {
-    run->config_part_count = message.part_count;
-    run->config_parts.Add(message.part_index, message.part_index);
-  }
+  run->config_known = run->announcements.Add(message).has_value() || run->config_known;
 }
 
 void LogSummary::Take(const orders_t& message) {
@@ -157,6 +269,47 @@ void LogSummary::Take(const learner_status_t& message) {
     run->config_hash = IdentityOf(message).config_hash;
     run->learner_status = message;
   }
+}
+
+std::string LogSummaryText(const LogSummary& summary, const MergedEventLogs::Totals& totals) {
+  std::string text = HeadText(summary, totals) + ChannelTable(summary);
+  for (const auto& [run_id, run] : summary.runs()) {
+    text += RunText(run_id, run);
+  }
+  if (!summary.actors().empty()) {
+    text += ActorTable(summary);
+  }
+  return text;
+}
+
+std::string LogSummaryJson(const LogSummary& summary, const MergedEventLogs::Totals& totals) {
+  OrderedJson json = {{"events", summary.events()},
+                      {"bytes", totals.bytes},
+                      {"begin_utime", summary.begin_utime()},
+                      {"duration_s", summary.duration_s()},
+                      {"damaged_bytes", totals.damaged_bytes},
+                      {"torn_bytes", totals.torn_bytes},
+                      {"foreign_messages", summary.foreign_messages()},
+                      {"damaged_messages", summary.damaged_messages()},
+                      {"beyond_limits", summary.beyond_limits()}};
+  for (const char* list : {"channels", "runs", "actors"}) {
+    json[list] = OrderedJson::array();
+  }
+  for (const auto& [name, channel] : summary.channels()) {
+    json["channels"].push_back({{"channel", name},
+                                {"type", channel.type},
+                                {"events", channel.events},
+                                {"per_s", RateHz(channel.events, summary)},
+                                {"message_bytes", channel.message_bytes},
+                                {"damaged", channel.damaged}});
+  }
+  for (const auto& [run_id, run] : summary.runs()) {
+    json["runs"].push_back(RunJson(run_id, run));
+  }
+  for (const auto& [actor_id, actor] : summary.actors()) {
+    json["actors"].push_back(ActorJson(actor_id, actor));
+  }
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace fresco

@@ -1,6 +1,5 @@
-// Collects what logs contain in one pass: channels, runs, episodes, actors, gaps. It decodes only what it
-// needs, and no networks. Its memory does not depend on the size of the logs. No I/O. Only one thread may use
-// an object.
+// Collects what logs contain, and shows it (`fresco log info`): channels, runs, episodes, actors, gaps. No
+// I/O. Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +9,11 @@
 #include <string>
 
 #include "bus/bus.h"
-#include "logs/episode_coverage.h"
-#include "logs/interval_set.h"
+#include "logs/coverage.h"
+#include "logs/merged_event_logs.h"
 #include "msgs/message_decoder.h"
 #include "msgs/message_peek.h"
+#include "msgs/run_announcements.h"
 
 namespace fresco {
 
@@ -26,8 +26,8 @@ struct ChannelTraffic {
 
 struct RunTraffic {
   uint32_t config_hash = 0;
-  IntervalSet config_parts{1024};      ///< numbers of the recorded parts of the configuration
-  int32_t config_part_count = 0;       ///< number of all its parts; 0 if no run_t was recorded
+  RunAnnouncements announcements;      ///< the parts of its configuration that were recorded
+  bool config_known = false;           ///< whether all of them were recorded
   bool finished = false;               ///< the learner announced the end of the run
   std::optional<int64_t> first_order;  ///< lowest index of a recorded order; none: no order was recorded
   int64_t last_order = -1;             ///< highest index of a recorded order
@@ -36,8 +36,6 @@ struct RunTraffic {
   std::set<int64_t> actors;                        ///< ids of the actors that sent transitions
   std::optional<learner_status_t> learner_status;  ///< the last one
 
-  /// Whether every part of the configuration was recorded.
-  bool config_known() const { return config_part_count > 0 && config_parts.count() == config_part_count; }
   /// The number of orders of which no transition was recorded.
   int64_t orders_without_transitions() const;
 };
@@ -49,15 +47,16 @@ struct ActorTraffic {
   IntervalSet sequences{1024};  ///< numbers of its recorded statuses; missing ones were lost
 };
 
+/// Takes the events in one pass. It decodes only what it needs, and no networks. Its memory does not depend
+/// on the size of the logs.
 class LogSummary {
  public:
   /// Adds an event. Call it for every event, in order.
   void Take(const LcmEvent& event);
 
   int64_t events() const { return events_; }
-  /// Times of the first and the last event, microseconds since the epoch; 0 if there is none.
+  /// Time of the first event, microseconds since the epoch; 0 if there is none.
   int64_t begin_utime() const { return begin_utime_; }
-  int64_t end_utime() const { return end_utime_; }
   double duration_s() const { return 1e-6 * static_cast<double>(end_utime_ - begin_utime_); }
   const std::map<std::string, ChannelTraffic, std::less<>>& channels() const { return channels_; }
   const std::map<int64_t, RunTraffic>& runs() const { return runs_; }
@@ -92,5 +91,13 @@ class LogSummary {
   int64_t beyond_limits_ = 0;
   MessageDecoder decoder_;
 };
+
+/// Returns a text for people: channels, runs and actors as tables, and what is missing or damaged.
+std::string LogSummaryText(const LogSummary& summary, const MergedEventLogs::Totals& totals);
+
+/// Returns a JSON object with events, bytes, begin_utime, duration_s, damaged_bytes, torn_bytes,
+/// foreign_messages, damaged_messages and beyond_limits, and with channels, runs and actors as lists of
+/// objects.
+std::string LogSummaryJson(const LogSummary& summary, const MergedEventLogs::Totals& totals);
 
 }  // namespace fresco

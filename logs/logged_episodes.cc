@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "core/error.h"
 
@@ -15,19 +16,19 @@ constexpr size_t kMaximumOpenEpisodes = 8192;
 
 }  // namespace
 
-std::optional<Episode> LoggedEpisodes::Assembly::Add(const transitions_t& message) {
-  if (!ToEpisodeRun(*world_, message, run_)) {
+std::optional<CommittedEpisode> LoggedEpisodes::Assembly::Add(const transitions_t& message) {
+  if (!FromWire(*world_, message, part_)) {
     return std::nullopt;
   }
-  auto [entry, is_new] = open_.try_emplace(run_.order_index, *world_, mask_options_);
+  auto [entry, is_new] = open_.try_emplace(part_.order_index, *world_, mask_options_);
   Ledger& ledger = entry->second;
   if (is_new) {
-    ledger.Write(Order{run_.order_index});
+    ledger.Write(Order{part_.order_index});
   }
-  if (ledger.Add(run_) == Ledger::Arrival::kCompleted) {
-    std::optional<CommittedEpisode> whole = ledger.TakeNext();
+  if (ledger.Add(part_) == Ledger::Arrival::kCompleted) {
+    std::optional<CommittedEpisode> complete = ledger.TakeNext();
     open_.erase(entry);
-    return whole ? std::optional(std::move(whole->episode)) : std::nullopt;
+    return complete;
   }
   if (open_.size() > kMaximumOpenEpisodes) {
     open_.erase(open_.begin());
@@ -78,16 +79,14 @@ void LoggedEpisodes::TakeOrders(const orders_t& message) {
   }
 }
 
-std::vector<std::pair<int64_t, int64_t>> LoggedEpisodes::Missing() const {
-  std::vector<std::pair<int64_t, int64_t>> missing;
-  int64_t next = 0;
+std::vector<Interval> LoggedEpisodes::Missing() const {
+  constexpr size_t kAll = std::numeric_limits<size_t>::max();
+  IntervalSet whole(kAll);
+  whole.Add(-1, -1);  // so that the orders before the first whole episode are a gap, too
   for (const int64_t index : whole_) {
-    if (index > next) {
-      missing.emplace_back(next, index - 1);
-    }
-    next = index + 1;
+    whole.Add(index, index);
   }
-  return missing;
+  return whole.Gaps(kAll);
 }
 
 std::vector<int64_t> LoggedEpisodes::Training() const {
@@ -115,8 +114,8 @@ Episode LoggedEpisodes::Take(int64_t order_index) {
     }
     if (message->DecodeAs(transitions_) && IsOurs(IdentityOf(transitions_)) &&
         transitions_.order_index >= order_index) {
-      if (auto episode = assembly_.Add(transitions_)) {
-        ahead_.try_emplace(episode->order_index, std::move(*episode));
+      if (auto complete = assembly_.Add(transitions_)) {
+        ahead_.try_emplace(complete->order.index, std::move(complete->episode));
       }
     }
   }

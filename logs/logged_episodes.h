@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "logs/log_messages.h"
+#include "logs/coverage.h"
 #include "logs/logged_runs.h"
 #include "msgs/order.h"
 #include "training/ledger.h"
@@ -26,8 +26,8 @@ class LoggedEpisodes {
 
   /// The indices of the orders whose episode is complete in the logs.
   const std::set<int64_t>& whole() const { return whole_; }
-  /// The indices of the other orders, below the highest of whole(), as ascending ranges (first, last).
-  std::vector<std::pair<int64_t, int64_t>> Missing() const;
+  /// The indices of the other orders, below the highest of whole(), as ascending ranges.
+  std::vector<Interval> Missing() const;
   /// Those of whole() that are known to be training orders. The others are evaluations, or their order was
   /// not recorded.
   std::vector<int64_t> Training() const;
@@ -48,14 +48,14 @@ class LoggedEpisodes {
    public:
     Assembly(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
     /// Adds the transitions of a message. Returns the episode if it is complete now.
-    std::optional<Episode> Add(const transitions_t& message);
+    std::optional<CommittedEpisode> Add(const transitions_t& message);
     /// Drops the incomplete episodes of orders with a lower index.
     void Forget(int64_t below) { open_.erase(open_.begin(), open_.lower_bound(below)); }
 
    private:
     const World* world_;
     MaskOptions mask_options_;
-    Episode run_;
+    OrderResult part_;
     std::map<int64_t, Ledger> open_;  // incomplete episodes by order index, each in a ledger of its own
   };
 

@@ -6,7 +6,9 @@
 #include <deque>
 #include <iterator>
 
+#include "bus/authenticated_bus.h"
 #include "core/error.h"
+#include "core/identifier.h"
 #include "msgs/run_announcements.h"
 
 namespace fresco {
@@ -49,8 +51,16 @@ class Runs {
 
 }  // namespace
 
-std::string RunIdText(const LoggedRun& run) {
-  return fmt::format("{:016x}", static_cast<uint64_t>(run.identity.run_id));
+std::optional<LogMessage> LogMessages::Next() {
+  while (const auto event = logs_.Next()) {
+    const auto content = source_.key ? AuthenticContent(*source_.key, event->channel, event->message)
+                                     : std::optional(WithoutAuthentication(event->message));
+    if (content) {
+      return LogMessage{event->channel, *content};
+    }
+    ++refused_;
+  }
+  return std::nullopt;
 }
 
 std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
@@ -71,11 +81,12 @@ std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
 LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id) {
   std::string known;
   for (const LoggedRun& run : runs) {
-    if (run_id.empty() ? runs.size() == 1 : RunIdText(run) == run_id) {
+    if (run_id.empty() ? runs.size() == 1 : IdentifierText(run.identity.run_id) == run_id) {
       return run;
     }
-    known += fmt::format("\n  {} (configuration {:08x}, {} messages of transitions)", RunIdText(run),
-                         run.identity.config_hash, run.transitions_messages);
+    known +=
+        fmt::format("\n  {} (configuration {:08x}, {} messages of transitions)",
+                    IdentifierText(run.identity.run_id), run.identity.config_hash, run.transitions_messages);
   }
   throw UsageError(
       runs.empty() ? "the log contains no run of Fresco"
@@ -91,7 +102,7 @@ void ExpectOrdersOfThisRelease(const LoggedRun& run) {
                     "orders mean other episodes here, so the weights would differ; use the release that "
                     "recorded it, or train another agent on its episodes (another schedule or agent, with "
                     "--set)",
-                    RunIdText(run), *run.protocol_version, kProtocolVersion));
+                    IdentifierText(run.identity.run_id), *run.protocol_version, kProtocolVersion));
   }
 }
 

@@ -1,5 +1,7 @@
 #include "logs/merged_event_logs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -13,6 +15,19 @@ void Add(const EventLogReader& reader, MergedEventLogs::Totals& totals) {
 }
 
 }  // namespace
+
+std::vector<std::string> MergedEventLogs::Totals::Problems() const {
+  std::vector<std::string> problems;
+  if (damaged_bytes > 0) {
+    problems.push_back(fmt::format("{} bytes of the log are damaged and were skipped", damaged_bytes));
+  }
+  if (torn_bytes > 0) {
+    problems.push_back(fmt::format(
+        "the log is cut short: its last event ({} bytes) is incomplete; all events before it were read",
+        torn_bytes));
+  }
+  return problems;
+}
 
 MergedEventLogs::MergedEventLogs(const std::vector<std::filesystem::path>& paths) {
   for (const auto& path : paths) {

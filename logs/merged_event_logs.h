@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bus/bus.h"
@@ -22,6 +23,9 @@ class MergedEventLogs {
     int64_t bytes = 0;          ///< bytes read
     int64_t damaged_bytes = 0;  ///< damaged bytes that were skipped
     int64_t torn_bytes = 0;     ///< bytes of incomplete last events
+
+    /// Returns a sentence for damage and one for a cut, as far as there is any.
+    std::vector<std::string> Problems() const;
   };
 
   /// Throws UsageError as EventLogReader does.

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "logs/channel_filter.h"
 #include "logs/event_log_writer.h"
+#include "logs/event_selection.h"
 
 namespace fresco {
 

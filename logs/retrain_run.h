@@ -1,13 +1,14 @@
-// Runs a retraining and writes its results to the folder of a run. Only one thread may use an object; the
-// search for the optimum has a thread of its own.
+// Runs a retraining, reports about it, and writes its results to the folder of a run.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "logs/retrain_report.h"
+#include "logs/logged_episodes.h"
+#include "logs/retraining.h"
 #include "msgs/experiment.h"
 #include "storage/optimum_search.h"
 #include "storage/run_folder.h"
@@ -15,6 +16,34 @@
 
 namespace fresco {
 
+/// What a retraining says about the logs and the trained agent.
+struct RetrainReport {
+  LogPaths logs;
+  LoggedRun run;
+  Retraining::Use use = Retraining::Use::kSameRun;
+  std::vector<Interval> missing = {};  ///< see LoggedEpisodes::Missing
+  MergedEventLogs::Totals totals = {};
+  int64_t refused = 0;  ///< messages that are not authenticated with the key
+  Retraining::Counts counts = {};
+};
+
+// The following functions are pure; any thread may call them.
+
+/// Returns ranges as text: "3, 17 to 20 and 2 more ranges (9 orders in all)".
+std::string RangesText(const std::vector<Interval>& ranges);
+
+/// Returns the text to print before the training: which run the logs contain, and what its episodes are used
+/// for.
+std::string BeginText(const RetrainReport& report);
+
+/// Returns the text to print after the training: which episodes came from the logs, which were flown, and
+/// whether the result is the recorded run.
+std::string EndText(const RetrainReport& report);
+
+/// Returns a summary's JSON with the report added as "retrain".
+std::string WithRetrainReport(const std::string& summary_json, const RetrainReport& report);
+
+/// Only one thread may use an object; the search for the optimum has a thread of its own.
 class RetrainRun {
  public:
   /// Reads the logs and writes nothing. Throws UsageError if they can't be read or contain too little

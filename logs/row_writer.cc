@@ -3,30 +3,46 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <cerrno>
+#include <cstring>
+#include <utility>
 
 #include "core/error.h"
 
 namespace fresco {
-namespace {
 
-using OrderedJson = nlohmann::ordered_json;
-
-std::string JsonLine(const NamedRow& row) {
-  OrderedJson json = OrderedJson::object();
-  for (const auto& [name, cell] : row) {
-    json[name] = std::visit([](const auto& value) { return OrderedJson(value); }, cell);
+TextOutput::TextOutput(std::string path) : path_(std::move(path)), file_(stdout) {
+  if (!path_.empty()) {
+    own_file_.reset(std::fopen(path_.c_str(), "we"));
+    file_ = own_file_.get();
+    if (file_ == nullptr) {
+      throw UsageError(fmt::format("--out: can't write {}: {}", path_, std::strerror(errno)));
+    }
   }
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
-}  // namespace
+void TextOutput::Write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) {
+    ThrowProblem();
+  }
+}
+
+void TextOutput::Flush() {
+  if (std::fflush(file_) != 0) {
+    ThrowProblem();
+  }
+}
+
+void TextOutput::ThrowProblem() const {
+  throw Failure(
+      fmt::format("can't write {}: {}", path_.empty() ? "standard output" : path_, std::strerror(errno)));
+}
 
 void RowWriter::Write(const NamedRow& row) {
   if (format_ == Format::kCsv) {
     WriteCsvRow(row);
   } else {
-    output_.Write(JsonLine(row));
+    output_.Write(RowJson(row) + "\n");
   }
   ++rows_;
 }

@@ -1,5 +1,7 @@
 #include "msgs/run_announcements.h"
 
+#include <algorithm>
+
 namespace fresco {
 
 std::optional<std::string> RunAnnouncements::Add(const run_t& message) {
@@ -20,6 +22,11 @@ std::optional<std::string> RunAnnouncements::Add(const run_t& message) {
     text += *part;
   }
   return text;
+}
+
+int RunAnnouncements::parts() const {
+  return static_cast<int>(
+      std::count_if(parts_.begin(), parts_.end(), [](const auto& part) { return part.has_value(); }));
 }
 
 }  // namespace fresco

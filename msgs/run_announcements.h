@@ -16,6 +16,9 @@ class RunAnnouncements {
   /// part of another run discards the parts of the run before. Ignores a part whose index is out of range.
   std::optional<std::string> Add(const run_t& message);
 
+  /// The number of parts that are here.
+  int parts() const;
+
  private:
   RunIdentity identity_;
   std::vector<std::optional<std::string>> parts_;

@@ -4,16 +4,70 @@
 
 #include <csignal>
 
+#include "actors/served_run.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/identifier.h"
 #include "core/installation.h"
+#include "learner/learner_process.h"
 #include "msgs/channels.h"
-#include "msgs/settings.h"
-#include "processes/run_checks.h"
 
 namespace fresco {
+namespace {
+
+/// Throws UsageError if the folder of a run can't be written to or, for a new run, holds another run.
+void CheckRunFolder(const std::filesystem::path& folder, RunFolder::Use use) {
+  if (use == RunFolder::Use::kNewRun) {
+    RunFolder::CheckNew(folder);
+  } else {
+    CheckOutputFolder(folder, "--resume");
+  }
+}
+
+void AddBusArguments(const BusOptions& options, std::vector<std::string>& command) {
+  if (options.key_file) {
+    command.insert(command.end(), {"--key-file", options.key_file->string()});
+  }
+  if (options.disturbance) {
+    command.insert(command.end(), {"--disturb", ToText(*options.disturbance)});
+  }
+}
+
+}  // namespace
+
+void CheckRun(const Experiment& experiment) {
+  SiblingProgram("fresco-learner");
+  if (experiment.run().actors() > 0) {
+    SiblingProgram("fresco-actor");
+  }
+  MemoryNeed actors = ActorMemory(experiment, experiment.run().environments_per_actor());
+  actors.processes = experiment.run().actors();
+  RefuseIfTooLarge({LearnerMemory(experiment), actors}, ReadAvailableMemory());
+}
+
+void CheckRunAndBus(const Experiment& experiment, const BusOptions& bus_options) {
+  CheckRun(experiment);
+  OpenBus(experiment.run().lcm_url(), bus_options);
+}
+
+Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings) {
+  const FolderLock lock(folder, kResumePatienceUs);
+  return ReadResumption(folder, settings);
+}
+
+std::vector<std::string> ActorCommand(const Experiment& experiment, const BusOptions& bus_options,
+                                      std::optional<int64_t> run_id) {
+  std::vector<std::string> command = {SiblingProgram("fresco-actor").string(), "--lcm-url",
+                                      experiment.run().lcm_url(), "--channel-prefix",
+                                      experiment.run().channel_prefix()};
+  if (run_id) {
+    command.insert(command.end(), {"--run-id", IdentifierText(*run_id)});
+  }
+  AddBusArguments(bus_options, command);
+  return command;
+}
+
 TrainingRun::TrainingRun(const Experiment& experiment, std::filesystem::path folder,
                          const BusOptions& bus_options)
     : TrainingRun(experiment, std::move(folder), bus_options, RunFolder::Use::kNewRun, DrawIdentifier()) {}
@@ -62,7 +116,7 @@ void TrainingRun::Start() {
   if (record_split_mb_) {
     recorder_ = std::make_unique<RunRecorder>(folder_, experiment_.run().lcm_url(), *record_split_mb_);
   }
-  learner_ = std::make_unique<ChildProcess>(LearnerArguments(), folder_ / "learner.log");
+  learner_ = std::make_unique<ChildProcess>(LearnerCommand(), folder_ / "learner.log");
   heard_us_ = MonotonicMicroseconds();
   actors_.resize(static_cast<size_t>(experiment_.run().actors()));
 }
@@ -146,36 +200,26 @@ std::string TrainingRun::ResumeCommand() const {
                      record_split_mb_ ? " --record" : "");
 }
 
-std::vector<std::string> TrainingRun::LearnerArguments() {
-  std::vector<std::string> arguments = {SiblingProgram("fresco-learner").string(), "--run-id", RunIdText()};
+std::vector<std::string> TrainingRun::LearnerCommand() {
+  std::vector<std::string> command = {SiblingProgram("fresco-learner").string(), "--run-id",
+                                      IdentifierText(run_id_)};
   if (use_ == RunFolder::Use::kResume) {
-    arguments.insert(arguments.end(), {"--resume", folder_.string()});
+    command.insert(command.end(), {"--resume", folder_.string()});
   } else {
-    arguments.insert(arguments.end(),
-                     {"--config", (folder_ / "config.textproto").string(), "--out", folder_.string()});
+    command.insert(command.end(),
+                   {"--config", (folder_ / "config.textproto").string(), "--out", folder_.string()});
   }
-  return WithBusOptions(std::move(arguments));
+  AddBusArguments(NextBusOptions(), command);
+  return command;
 }
 
-std::vector<std::string> TrainingRun::ActorArguments() {
-  return WithBusOptions({SiblingProgram("fresco-actor").string(), "--lcm-url", experiment_.run().lcm_url(),
-                         "--channel-prefix", experiment_.run().channel_prefix(), "--run-id", RunIdText()});
-}
-
-std::vector<std::string> TrainingRun::WithBusOptions(std::vector<std::string> arguments) {
-  if (bus_options_.key_file) {
-    arguments.insert(arguments.end(), {"--key-file", bus_options_.key_file->string()});
+/// Returns the bus options of the next process. If they disturb messages, each has a seed of its own.
+BusOptions TrainingRun::NextBusOptions() {
+  BusOptions options = bus_options_;
+  if (options.disturbance) {
+    options.disturbance->seed += started_processes_++;
   }
-  if (bus_options_.disturbance) {
-    LossOptions disturbance = *bus_options_.disturbance;
-    disturbance.seed += started_processes_++;
-    arguments.insert(arguments.end(), {"--disturb", ToText(disturbance)});
-  }
-  return arguments;
-}
-
-std::string TrainingRun::RunIdText() const {
-  return fmt::format("{:016x}", static_cast<uint64_t>(run_id_));
+  return options;
 }
 
 void TrainingRun::KeepActorsAlive() {
@@ -187,7 +231,8 @@ void TrainingRun::KeepActorsAlive() {
       NoteDeath(place, log, now_us);
     }
     if (place.process == nullptr && now_us >= place.start_at_us) {
-      place.process = std::make_unique<ChildProcess>(ActorArguments(), log);
+      place.process =
+          std::make_unique<ChildProcess>(ActorCommand(experiment_, NextBusOptions(), run_id_), log);
     }
   }
 }
@@ -216,11 +261,6 @@ void TrainingRun::EndActors() {
       place.process->WaitForEnd(kPatienceUs);
     }
   }
-}
-
-Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings) {
-  const FolderLock lock(folder, kResumePatienceUs);
-  return ReadResumption(folder, settings);
 }
 
 }  // namespace fresco

@@ -1,5 +1,5 @@
-// Starts, watches and ends the processes of one run: a learner and its local actors. `train` uses one,
-// `figures` and `soak` several. Only one thread may use an object.
+// Checks a run, and starts, watches and ends its processes: a learner and its local actors. `train` has one
+// run, `figures` and `soak` have several.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,33 @@
 
 namespace fresco {
 
+// ---- Checks before anything is written or started, so that wrong use leaves no folder, file or process
+// behind. Any thread may call these functions.
+
+/// Throws UsageError if a program of the run is missing, or if this host has too little memory for the
+/// learner or the local actors, alone or together. Further checks of an experiment that are possible before
+/// it runs belong here.
+void CheckRun(const Experiment& experiment);
+
+/// Does CheckRun, and opens and closes the bus of the experiment. For commands with many runs. Throws as
+/// CheckRun and OpenBus do.
+void CheckRunAndBus(const Experiment& experiment, const BusOptions& bus_options);
+
+/// Reads what is needed to resume the run in `folder`. Waits for a learner that is about to end there. Throws
+/// as ReadResumption does, and if a learner is working in the folder.
+Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings = {});
+
+/// Returns the command that starts an actor which serves this run, or any run on its channels if there is no
+/// id.
+std::vector<std::string> ActorCommand(const Experiment& experiment, const BusOptions& bus_options,
+                                      std::optional<int64_t> run_id = {});
+
+/// Only one thread may use an object.
 class TrainingRun {
  public:
-  /// Prepares a new run in `folder`: checks all that can be checked in advance (processes/run_checks.h) and
-  /// opens the bus. Nothing is written before Start. Every process gets `bus_options`; if they disturb
-  /// messages, each with a seed of its own. Throws UsageError.
+  /// Prepares a new run in `folder`: does CheckRun, checks the folder, and opens the bus. Nothing is written
+  /// before Start. Every process gets `bus_options`; if they disturb messages, each with a seed of its own.
+  /// Throws UsageError.
   TrainingRun(const Experiment& experiment, std::filesystem::path folder, const BusOptions& bus_options = {});
   /// Does the same for resuming the run in `folder`, which ReadResumption has read.
   TrainingRun(const Resumption& resumption, std::filesystem::path folder, const BusOptions& bus_options = {});
@@ -84,10 +106,8 @@ class TrainingRun {
               RunFolder::Use use, int64_t run_id);
   void PrepareFolder() const;
   void Listen();
-  std::vector<std::string> LearnerArguments();
-  std::vector<std::string> ActorArguments();
-  std::vector<std::string> WithBusOptions(std::vector<std::string> arguments);
-  std::string RunIdText() const;
+  std::vector<std::string> LearnerCommand();
+  BusOptions NextBusOptions();
   void KeepActorsAlive();
   void GiveUpOnASilentLearner() const;
   void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
@@ -109,9 +129,5 @@ class TrainingRun {
   uint64_t started_processes_ = 0;
   int actor_failures_ = 0;
 };
-
-/// Reads what is needed to resume the run in `folder`. Waits for a learner that is about to end there. Throws
-/// as ReadResumption does, and if a learner is working in the folder.
-Resumption ReadInterruptedRun(const std::filesystem::path& folder, const Settings& settings = {});
 
 }  // namespace fresco

@@ -9,11 +9,12 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "report/figure_groups.h"
 #include "report/flight_map.h"
+#include "report/result_display.h"
 #include "report/run_report.h"
-#include "report/train_display.h"
+#include "report/study_statistics.h"
 #include "storage/policy.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -48,31 +49,6 @@ constexpr EnergyFigure kEnergyFigures[] = {
      "With the rotor usual in the literature flight is the dearer (249 W against 168.5 W hovering): the "
      "budget limits how far the UAV flies. DQN was trained at the marked budgets."},
 };
-
-constexpr char kNotKnown[] = "-";
-
-std::string Number(double value, int digits) {
-  return fmt::format("{:.{}f}", value, digits);
-}
-
-std::string WithSpread(const std::optional<MeanEstimate>& estimate, int digits) {
-  if (!estimate) {
-    return kNotKnown;
-  }
-  return Number(estimate->mean, digits) +
-         (estimate->half_width ? fmt::format(" ± {}", Number(*estimate->half_width, digits)) : "");
-}
-
-/// Returns an empty cell if there is no value.
-template <class Value>
-CsvCell CellOrEmpty(const std::optional<Value>& value) {
-  return value ? CsvCell(*value) : CsvCell(std::string());
-}
-
-std::vector<CsvCell> CellsOf(const std::optional<MeanEstimate>& estimate) {
-  return {estimate ? CsvCell(estimate->mean) : CsvCell(std::string()),
-          CellOrEmpty(estimate ? estimate->half_width : std::nullopt)};
-}
 
 /// Returns the name of the file that shows the flight with this name, without extension.
 std::string FlightFile(const std::string& name) {
@@ -143,8 +119,8 @@ class FigureWriter {
 
   void WriteDeploymentFigure(const DeploymentFigure& figure) {
     const std::vector<Group> groups = GroupsOf(study_, results_, figure.figure);
-    WriteGroups(figure, groups);
-    contents_.tables.push_back(TableOf(figure, groups));
+    WriteGroups(folder_ / fmt::format("{}.csv", figure.file), figure.x_column, groups);
+    contents_.tables.push_back(GroupTable(figure.title, figure.x_label, groups));
     LinePlot plot{figure.title, figure.x_label, "average AoI (slots)"};
     plot.integer_x_tics = true;
     plot.least_y = 0;
@@ -161,56 +137,10 @@ class FigureWriter {
       }
       plot.curves.push_back(std::move(curve));
     }
-    Draw(DrawLinePlot(plot), figure.file, figure.title, CaptionOf(groups));
-  }
-
-  static std::string CaptionOf(const std::vector<Group>& groups) {
     const size_t deployments = groups.front().results.size();
-    return fmt::format("Mean over {} random deployment{}{}.", deployments, deployments == 1 ? "" : "s",
-                       deployments > 1 ? " with its 95 % confidence interval (Student's t)" : "");
-  }
-
-  void WriteGroups(const DeploymentFigure& figure, const std::vector<Group>& groups) const {
-    std::vector<std::string> header = {figure.x_column, "deployments"};
-    for (const Policy& policy : kPolicies) {
-      header.push_back(fmt::format("{}_average_aoi", policy.column));
-      header.push_back(fmt::format("{}_half_width", policy.column));
-    }
-    header.insert(header.end(), {"gap_percent", "gap_half_width", "gap_largest_percent"});
-    std::vector<std::vector<CsvCell>> rows;
-    for (const Group& group : groups) {
-      std::vector<CsvCell> row = {static_cast<int64_t>(group.x), static_cast<int64_t>(group.results.size())};
-      for (const Policy& policy : kPolicies) {
-        const std::vector<CsvCell> cells = CellsOf(group.Average(policy));
-        row.insert(row.end(), cells.begin(), cells.end());
-      }
-      const std::vector<CsvCell> gap = CellsOf(group.Gap());
-      row.insert(row.end(), gap.begin(), gap.end());
-      row.push_back(CellOrEmpty(group.LargestGap()));
-      rows.push_back(std::move(row));
-    }
-    WriteCsv(folder_ / fmt::format("{}.csv", figure.file), header, rows);
-  }
-
-  static ReportTable TableOf(const DeploymentFigure& figure, const std::vector<Group>& groups) {
-    ReportTable table{figure.title, {figure.x_label}, {}};
-    for (const Policy& policy : kPolicies) {
-      table.header.push_back(policy.name);
-    }
-    table.header.insert(table.header.end(), {"DQN's gap (%)", "largest gap (%)"});
-    for (const Group& group : groups) {
-      std::vector<std::string> row = {fmt::format("{:g}", group.x)};
-      for (const Policy& policy : kPolicies) {
-        row.push_back(WithSpread(group.Average(policy), 2));
-      }
-      const std::optional<double> largest = group.LargestGap();
-      const size_t gaps = group.Gaps().size();
-      const std::string some =
-          gaps < group.results.size() ? fmt::format(" ({} of {} runs)", gaps, group.results.size()) : "";
-      row.insert(row.end(), {WithSpread(group.Gap(), 2) + some, largest ? Number(*largest, 2) : kNotKnown});
-      table.rows.push_back(std::move(row));
-    }
-    return table;
+    Draw(DrawLinePlot(plot), figure.file, figure.title,
+         fmt::format("Mean over {} random deployment{}{}.", deployments, deployments == 1 ? "" : "s",
+                     deployments > 1 ? " with its 95 % confidence interval (Student's t)" : ""));
   }
 
   /// The curves of the baselines and the optimum have more budgets than those that DQN was trained at.
@@ -288,24 +218,25 @@ class FigureWriter {
          "One greedy flight of every evaluated version of one run's network.");
     for (const ReportFlight& flight : field.flights()) {
       const std::string file = FlightFile(flight.name);
-      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), flight.flight);
+      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), field.world(), flight.flight);
       const std::string title = "Flight: " + flight.name;
       Draw(DrawFlightMap(title, field.world(), flight.flight), file, title,
            "The path's colour is the slot; a dot joined with a sensor is a collection.");
     }
   }
 
-  static void WriteFlightCsv(const Path& path, const Flight& flight) {
+  static void WriteFlightCsv(const Path& path, const World& world, const Episode& flight) {
     std::vector<std::string> header = {"slot", "column", "row", "move", "scheduled"};
-    for (size_t sensor = 1; sensor <= flight.slots.front().state.aoi.size(); ++sensor) {
+    for (size_t sensor = 1; sensor <= flight.states.front().aoi.size(); ++sensor) {
       header.push_back(fmt::format("aoi_{}", sensor));
     }
     std::vector<std::vector<CsvCell>> rows;
-    for (const FlightSlot& slot : flight.slots) {
-      std::vector<CsvCell> row = {int64_t{slot.state.slot}, int64_t{slot.state.cell.column},
-                                  int64_t{slot.state.cell.row}, MoveName(slot.action.move),
-                                  int64_t{slot.action.schedule}};
-      row.insert(row.end(), slot.state.aoi.begin(), slot.state.aoi.end());
+    for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+      const State& state = flight.states[slot];
+      const Action action = ActionIn(world, flight, slot);
+      std::vector<CsvCell> row = {int64_t{state.slot}, int64_t{state.cell.column}, int64_t{state.cell.row},
+                                  MoveName(action.move), int64_t{action.schedule}};
+      row.insert(row.end(), state.aoi.begin(), state.aoi.end());
       rows.push_back(std::move(row));
     }
     WriteCsv(path, header, rows);

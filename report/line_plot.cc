@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/error.h"
-#include "report/gnuplot.h"
 
 namespace fresco {
 namespace {
@@ -15,6 +14,84 @@ namespace {
 constexpr int kPlotWidthPx = 800;
 constexpr int kPlotHeightPx = 470;  // height without the legend
 constexpr int kGapAxisPx = 92;
+
+struct RoleStyle {
+  const char* colour;
+  int marker;
+  double marker_size;
+  double line_width;
+  const char* dashes;
+};
+
+/// The optimum's marker is open and larger, so that it stays visible around the marker of a curve that
+/// reaches it.
+RoleStyle StyleOf(CurveRole role) {
+  switch (role) {
+    case CurveRole::kDqn:
+      return {colour::kBlue, 7, 0.65, 2.4, ""};
+    case CurveRole::kOptimum:
+      return {colour::kBlack, 4, 1.05, 1.4, "dashtype (9,5)"};
+    case CurveRole::kAoiBased:
+      return {colour::kVermillion, 9, 0.75, 1.8, ""};
+    case CurveRole::kDistanceBased:
+      return {colour::kGreen, 13, 0.8, 1.8, ""};
+  }
+  FRESCO_CHECK(false);
+}
+
+// The following functions return gnuplot's options for the colour, the line and the points. They are empty if
+// the shape has no line or no points.
+
+std::string ColourOption(CurveRole role, CurveShape shape) {
+  constexpr int kFaint = 0x90;  // transparency: 0 .. 255
+  return fmt::format("linecolor rgb '#{:02X}{}'", shape == CurveShape::kFaintDots ? kFaint : 0,
+                     StyleOf(role).colour + 1);
+}
+
+std::string LineOptions(CurveRole role, CurveShape shape) {
+  const RoleStyle style = StyleOf(role);
+  switch (shape) {
+    case CurveShape::kMarkers:
+    case CurveShape::kTopMarks:
+      return "";
+    case CurveShape::kFaintDots:
+      return "linewidth 0.8";
+    default:
+      return fmt::format("linewidth {} {}", style.line_width, style.dashes);
+  }
+}
+
+std::string PointOptions(CurveRole role, CurveShape shape) {
+  const RoleStyle style = StyleOf(role);
+  switch (shape) {
+    case CurveShape::kLineAndMarkers:
+    case CurveShape::kMarkers:
+      return fmt::format("pointtype {} pointsize {}", style.marker, style.marker_size);
+    case CurveShape::kFaintDots:
+      return "pointtype 7 pointsize 0.3";
+    case CurveShape::kTopMarks:
+      return "pointtype 2 pointsize 0.55 linewidth 1.2";
+    default:
+      return "";
+  }
+}
+
+/// Returns gnuplot's plotting style for the shape.
+const char* PlottingStyle(CurveShape shape) {
+  switch (shape) {
+    case CurveShape::kLineAndMarkers:
+    case CurveShape::kFaintDots:
+      return "linespoints";
+    case CurveShape::kLine:
+      return "lines";
+    case CurveShape::kSteps:
+      return "steps";
+    case CurveShape::kMarkers:
+    case CurveShape::kTopMarks:
+      return "points";
+  }
+  FRESCO_CHECK(false);
+}
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -107,16 +184,11 @@ std::string DataScript(const Curve& curve, size_t number, double top_y) {
 }
 
 std::string SpreadCommand(const Curve& curve, size_t number) {
-  if (curve.spread == Spread::kBand) {
-    constexpr int kNearlyClear = 0xD0;
-    return fmt::format("$curve{} using 1:($2-$3):($2+$3) with filledcurves {}", number,
-                       ColourOption(curve.role, kNearlyClear));
-  }
   // Vectors instead of yerrorbars, which leave a gap around the point even if no point is drawn.
   return fmt::format(
       "$curve{} using ($1+{}):($3>0?$2-$3:NaN):(0):(2*$3) with vectors heads size graph 0.005,90 "
       "linewidth 1.1 {}",
-      number, curve.bars_aside, ColourOption(curve.role, 0));
+      number, curve.bars_aside, ColourOption(curve.role, CurveShape::kLine));
 }
 
 std::string CurveCommand(const Curve& curve, size_t number) {
@@ -134,7 +206,7 @@ Legend MakeLegend(const LinePlot& plot) {
     }
   }
   for (const ReferenceLine& reference : plot.references) {
-    entries.push_back({reference.name, ColourOption(reference.role, 0),
+    entries.push_back({reference.name, ColourOption(reference.role, CurveShape::kLine),
                        LineOptions(reference.role, CurveShape::kLine), ""});
   }
   return Legend(std::move(entries), kPlotWidthPx);
@@ -147,7 +219,7 @@ std::string AxesScript(const LinePlot& plot, Range x, Range y) {
   script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", x.low, x.high, y.low, y.high);
   for (const ReferenceLine& reference : plot.references) {
     script += fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} nohead front {1} {2}\n",
-                          reference.y, ColourOption(reference.role, 0),
+                          reference.y, ColourOption(reference.role, CurveShape::kLine),
                           LineOptions(reference.role, CurveShape::kLine));
   }
   if (plot.integer_x_tics) {

@@ -6,13 +6,26 @@
 #include <string>
 #include <vector>
 
-#include "report/curve_style.h"
 #include "report/picture.h"
 
 namespace fresco {
 
-/// How a curve's spread is drawn.
-enum class Spread { kBars, kBand };
+/// What a curve shows. The role decides its colour, marker and dashes in every figure.
+enum class CurveRole {
+  kDqn,
+  kOptimum,
+  kAoiBased,
+  kDistanceBased,
+};
+
+enum class CurveShape {
+  kLineAndMarkers,  ///< a few measured points, joined by a line
+  kMarkers,         ///< a few points without a line, since nothing is known between them
+  kLine,
+  kSteps,      ///< a line that keeps its value until the next point
+  kFaintDots,  ///< many scattered values behind other curves; NaN in y interrupts their line
+  kTopMarks,   ///< marks at x along the upper edge, for points that have no y
+};
 
 struct Curve {
   std::string name;  ///< its text in the legend
@@ -22,7 +35,6 @@ struct Curve {
   std::vector<double> y{};  ///< one for each x, or empty for kTopMarks; finite, or NaN for kFaintDots
   std::vector<double> half_widths{};  ///< half of the spread for each x, in y's unit; 0 or NaN: not known;
                                       ///< may be empty
-  Spread spread = Spread::kBars;
   double bars_aside = 0;  ///< shift of the bars along x, so that those of several curves do not overlap
 };
 

@@ -1,15 +1,74 @@
 #include "report/picture.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
-#include <string_view>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
 
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "report/gnuplot.h"
 
 namespace fresco {
 namespace {
+
+/// A file in memory, used for gnuplot's input and output instead of a pipe. Neither side waits for the other,
+/// so there are no full or closed pipes to handle.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& content = "") : descriptor_(memfd_create("gnuplot", MFD_CLOEXEC)) {
+    std::ofstream stream(path(), std::ios::binary);
+    stream << content << std::flush;
+    if (!stream) {
+      throw Failure(std::string("gnuplot: can't make a file in memory: ") + std::strerror(errno));
+    }
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  std::string Content() const { return ReadFile(path()); }
+
+ private:
+  std::filesystem::path path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+
+  int descriptor_;
+};
+
+/// Returns the length of the UTF-8 sequence at the beginning of `text`; 0 if it is not valid or XML does not
+/// allow it.
+size_t Utf8Length(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const size_t length = byte(0) < 0x80                      ? 1
+                        : byte(0) >= 0xC2 && byte(0) < 0xE0 ? 2
+                        : byte(0) >= 0xE0 && byte(0) < 0xF0 ? 3
+                        : byte(0) >= 0xF0 && byte(0) < 0xF5 ? 4
+                                                            : 0;
+  for (size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) {
+      return 0;
+    }
+  }
+  const unsigned first_two = byte(0) << 8 | byte(1);
+  const bool overlong = length > 2 && (first_two < 0xE0A0 || (first_two >= 0xF080 && first_two < 0xF090));
+  const bool surrogate = length == 3 && first_two >= 0xEDA0 && first_two < 0xEE00;
+  const bool beyond = length == 4 && first_two >= 0xF490;
+  const bool not_a_character = length == 3 && first_two == 0xEFBF && byte(2) >= 0xBE;  // U+FFFE, U+FFFF
+  return overlong || surrogate || beyond || not_a_character ? 0 : length;
+}
+
+/// Returns the character escaped. A backquote becomes "\\140", since it would run a command even after a
+/// backslash.
+std::string OctalEscape(char character) {
+  const auto digit = [&](int shift) { return static_cast<char>('0' + ((character >> shift) & 7)); };
+  return {'\\', digit(6), digit(3), digit(0)};
+}
 
 constexpr int kFontPx = 14;
 constexpr int kTitlePx = 16;
@@ -70,6 +129,50 @@ double EntryWidthPx(const LegendEntry& entry) {
 }
 
 }  // namespace
+
+std::string RunGnuplot(const std::string& script, int64_t timeout_us) {
+  const MemoryFile input(script);
+  const MemoryFile output;
+  const MemoryFile errors;
+  ChildProcess gnuplot({"gnuplot", "-d"}, {input.descriptor(), output.descriptor(), errors.descriptor()});
+  const std::optional<int> status = gnuplot.Wait(timeout_us);
+  if (!status) {
+    throw Failure(fmt::format("gnuplot did not finish within {} ms and was killed", timeout_us / 1000));
+  }
+  if (*status == ChildProcess::kCannotRun) {
+    throw Failure(
+        "figures are drawn by the program gnuplot, which is not in PATH; install the Debian package "
+        "gnuplot-nox (apt-get install gnuplot-nox)");
+  }
+  if (*status != 0) {
+    throw Failure(fmt::format(
+        "gnuplot failed with {}: {}",
+        *status > 128 ? fmt::format("signal {}", *status - 128) : fmt::format("exit status {}", *status),
+        errors.Content()));
+  }
+  return output.Content();
+}
+
+std::string GnuplotString(std::string_view text) {
+  std::string quoted = "\"";
+  while (!text.empty()) {
+    const size_t length = Utf8Length(text);
+    const std::string_view character = text.substr(0, std::max<size_t>(length, 1));
+    text.remove_prefix(character.size());
+    if (length == 0) {
+      quoted += "\uFFFD";
+    } else if (length == 1 && (static_cast<unsigned char>(character[0]) < 0x20 || character[0] == 0x7F)) {
+      quoted += ' ';
+    } else if (character == ">" && quoted.ends_with("]]")) {
+      quoted += " >";  // gnuplot does not escape ">", and XML does not allow "]]>" in text
+    } else if (std::string_view("\"\\`").find(character) != std::string_view::npos) {
+      quoted += OctalEscape(character[0]);
+    } else {
+      quoted += character;
+    }
+  }
+  return quoted + "\"";
+}
 
 void WritePicture(const Picture& picture, const std::filesystem::path& stem) {
   FRESCO_CHECK(picture.width_px > 0 && picture.height_px > 0);

@@ -1,10 +1,12 @@
-// Turns gnuplot scripts into picture files (SVG and PNG), and makes the parts that all figures share: legend,
-// title, axes. The same picture gives the same bytes on the same machine. Any thread may call these
-// functions.
+// Runs Debian's gnuplot, turns its scripts into picture files (SVG and PNG), and makes the parts that all
+// figures share: legend, title, axes. The same picture gives the same bytes on the same machine. Any thread
+// may call these functions; every run of gnuplot is a process of its own.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fresco {
@@ -23,6 +25,18 @@ inline constexpr const char* kGrey = "#777777";  // this and the following are n
 inline constexpr const char* kText = "#222222";
 inline constexpr const char* kGrid = "#DDDDDD";
 }  // namespace colour
+
+inline constexpr int64_t kGnuplotTimeoutUs = 60'000'000;
+
+/// Runs gnuplot on `script` without any settings of the user or the system, and returns its standard output.
+/// Throws Failure if gnuplot is not in PATH (the error names its Debian package), if gnuplot reports an error
+/// (the error quotes it), or if it takes longer than `timeout_us`; it is killed then.
+std::string RunGnuplot(const std::string& script, int64_t timeout_us = kGnuplotTimeoutUs);
+
+/// Returns `text` as a quoted string for a script, in which no character is special to gnuplot (the terminal
+/// must be `noenhanced`). Characters that a picture can't show become spaces (line ends, control characters)
+/// or U+FFFD (bytes that are not UTF-8).
+std::string GnuplotString(std::string_view text);
 
 struct Picture {
   int width_px = 0;   ///< of the SVG file; the PNG file is twice as wide

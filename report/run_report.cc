@@ -4,14 +4,16 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
-#include "report/train_display.h"
+#include "report/result_display.h"
 #include "storage/network_file.h"
 #include "storage/policy.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -36,12 +38,48 @@ size_t ColumnOf(const std::vector<std::string>& header, const std::string& name,
   return static_cast<size_t>(found - header.begin());
 }
 
-Flight FlyActions(const World& world, const Json& actions) {
-  size_t next = 0;
-  return Fly(world, [&](const Environment&) { return world.ActionAt(actions.at(next++).get<int>()); });
+/// The best flight that the search found, from its actions in optimum.json.
+Episode FlightOfOptimum(const World& world, const Json& optimum, const Path& file) {
+  Episode flight;
+  if (!FlyActions(world, {}, optimum.at("actions").get<std::vector<int16_t>>(), flight)) {
+    throw Failure(file.string() + ": its actions are no flight of this run's scenario");
+  }
+  return flight;
 }
 
 }  // namespace
+
+LinePlot LearningCurvePlot(const LearningCurve& curve) {
+  FRESCO_CHECK(!curve.points.empty());
+  constexpr int64_t kManyUpdates = 10'000;
+  const bool thousands = curve.points.back().updates >= kManyUpdates;
+  Curve flights{.name = "greedy flight", .role = CurveRole::kDqn, .shape = CurveShape::kFaintDots};
+  Curve best{.name = "best so far", .role = CurveRole::kDqn, .shape = CurveShape::kSteps};
+  Curve failures{.name = "did not arrive", .role = CurveRole::kAoiBased, .shape = CurveShape::kTopMarks};
+  for (const LearningPoint& point : curve.points) {
+    const double x = static_cast<double>(point.updates) / (thousands ? 1000 : 1);
+    flights.x.push_back(x);
+    flights.y.push_back(point.arrived ? point.average_aoi : std::nan(""));
+    if (!point.arrived) {
+      failures.x.push_back(x);
+    }
+    const bool last = &point == &curve.points.back();
+    const bool better = point.arrived && (best.y.empty() || point.average_aoi < best.y.back());
+    if (better || (last && !best.y.empty())) {
+      best.x.push_back(x);
+      best.y.push_back(better ? point.average_aoi : best.y.back());
+    }
+  }
+  LinePlot plot{.title = curve.title,
+                .x_label = thousands ? "updates (thousands)" : "updates",
+                .y_label = "average AoI [slots]"};
+  plot.curves = {flights, failures, best};
+  if (curve.optimum_average_aoi) {
+    plot.references = {{"exact optimum", CurveRole::kOptimum, *curve.optimum_average_aoi}};
+    plot.gap_base = curve.optimum_average_aoi;
+  }
+  return plot;
+}
 
 FinishedRun::FinishedRun(const Path& folder)
     : experiment_(Experiment::Load((folder / "config.textproto").string())),
@@ -57,9 +95,10 @@ void FinishedRun::TakeFlights(const Path& folder) {
     flights_.push_back({"this run (DQN)", FlyNetwork(world_, experiment_, network)});
   }
   if (std::filesystem::exists(folder / "optimum.json")) {
-    const Json optimum = Json::parse(ReadFile(folder / "optimum.json"));
+    const Path file = folder / "optimum.json";
+    const Json optimum = Json::parse(ReadFile(file));
     flights_.push_back(
-        {FoundFlightName(optimum.at("optimal").get<bool>()), FlyActions(world_, optimum.at("actions"))});
+        {FoundFlightName(optimum.at("optimal").get<bool>()), FlightOfOptimum(world_, optimum, file)});
   }
   flights_.push_back({"AoI-based", FlyBaseline(world_, BaselineKind::kAoi)});
   flights_.push_back({"distance-based", FlyBaseline(world_, BaselineKind::kDistance)});

@@ -2,15 +2,34 @@
 // beside those of the baselines and the optimum. Only one thread at a time may use a folder.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "msgs/experiment.h"
-#include "report/learning_curve.h"
+#include "report/line_plot.h"
 #include "report/report.h"
 
 namespace fresco {
+
+/// The result of the greedy flight of one version.
+struct LearningPoint {
+  int64_t updates = 0;     ///< updates made when the version was made
+  double average_aoi = 0;  ///< in slots
+  bool arrived = false;
+};
+
+struct LearningCurve {
+  std::string title;
+  std::vector<LearningPoint> points{};          ///< at least one, sorted by updates
+  std::optional<double> optimum_average_aoi{};  ///< of the same scenario, in slots, > 0; none if not proved
+};
+
+/// The plot shows flights that arrived as dots, the best of them so far as a line, flights that did not
+/// arrive as marks at the top, and the optimum as a horizontal line, with the gap to it on the right axis.
+LinePlot LearningCurvePlot(const LearningCurve& curve);
 
 /// A run that was read from its folder. It can't be moved, since its flights refer to its world.
 class FinishedRun {
@@ -46,7 +65,7 @@ class FinishedRun {
 ReportFigure WriteFigure(const Picture& picture, const std::filesystem::path& stem, const std::string& title,
                          const std::string& caption);
 
-/// Returns the table of a run's policies (PolicyRows in train_display.h) for a report.
+/// Returns the table of a run's policies (PolicyRows in result_display.h) for a report.
 ReportTable PolicyTable(const std::string& summary_json);
 
 /// Writes report.html, and the learning curve as SVG and PNG, to a run's folder. If gnuplot is missing or

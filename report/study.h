@@ -42,6 +42,10 @@ struct StudyOptions {
   BusOptions bus = {};           ///< for every run
 };
 
+/// Returns the result of the run in `folder` from its summary (JSON). Throws Failure if the search for its
+/// optimum failed.
+StudyResult ResultOf(const std::string& summary, const std::filesystem::path& folder);
+
 /// Checks all jobs, then runs those that have no complete summary yet; a run that was interrupted continues
 /// from its latest checkpoint. Returns the results in the order of the jobs. Shows progress and the time left
 /// on standard error. Throws UsageError if a folder holds a run of another configuration, or if it has

@@ -9,7 +9,6 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/installation.h"
 #include "core/signals.h"
 
 namespace fresco {
@@ -136,20 +135,10 @@ class Round {
   }
 
   std::unique_ptr<ChildProcess> StartGuest() {
-    const proto::Run& run = options_.experiment.run();
-    LossOptions disturbance = *bus_.disturbance;
-    disturbance.seed += 500 + guests_++;
-    std::vector<std::string> arguments = {SiblingProgram("fresco-actor").string(),
-                                          "--lcm-url",
-                                          run.lcm_url(),
-                                          "--channel-prefix",
-                                          run.channel_prefix(),
-                                          "--disturb",
-                                          ToText(disturbance)};
-    if (bus_.key_file) {
-      arguments.insert(arguments.end(), {"--key-file", bus_.key_file->string()});
-    }
-    return std::make_unique<ChildProcess>(arguments, options_.folder / "guest.log");
+    BusOptions bus = bus_;
+    bus.disturbance->seed += 500 + guests_++;
+    return std::make_unique<ChildProcess>(ActorCommand(options_.experiment, bus),
+                                          options_.folder / "guest.log");
   }
 
   void Fail(const std::string& failure) {

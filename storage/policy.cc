@@ -16,6 +16,7 @@
 #include "storage/checkpoint_file.h"
 #include "storage/run_folder.h"
 #include "training/flyer.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -163,18 +164,16 @@ std::string FlightSummary(const FlownPolicy& flown, const std::string& policy) {
   const AoiFigures figures = Figures(flown.world, flown.flight);
   return fmt::format("{}: {}; average AoI {:.3f} slots, total AoI {}, {:.0f} J left",
                      FlightName(flown, policy), OutcomeName(flown.flight.outcome), figures.average_aoi,
-                     figures.total_aoi, flown.flight.residual_energy_j);
+                     figures.total_aoi, ResidualEnergy(flown.world, flown.flight));
 }
 
-Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
+Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
   const size_t trained_for = network.experiment.scenario().sensors.size();
   if (trained_for != world.scenario().sensors.size()) {
     throw UsageError(fmt::format("--policy: the network was trained for {} sensors, the scenario has {}",
                                  trained_for, world.sensors()));
   }
-  const Episode episode = FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
-  size_t next = 0;
-  return Fly(world, [&](const Environment&) { return world.ActionAt(episode.actions[next++]); });
+  return FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
 }
 
 Plan PlanWithin(const World& world, const PlannerLimits& limits) {

@@ -10,7 +10,7 @@
 #include "msgs/experiment.h"
 #include "planner/planner.h"
 #include "storage/network_file.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace CLI {
 class App;
@@ -52,7 +52,7 @@ struct FlownPolicy {
   explicit FlownPolicy(const Experiment& given) : experiment(given), world(given.scenario()) {}
   Experiment experiment;
   World world;
-  Flight flight;
+  Episode flight;
   std::optional<Plan> plan;  ///< set if the policy is "optimal"
 };
 
@@ -72,7 +72,7 @@ std::string FlightSummary(const FlownPolicy& flown, const std::string& policy);
 
 /// Flies one greedy episode of a network in `world`, with the masks of `experiment`. Throws UsageError if the
 /// network is for another number of sensors.
-Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
+Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
 
 /// Searches for the exact optimum until it is proved, a limit is reached or the program is asked to stop.
 /// Returns the best flight found.

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/bytes.h"
+#include "core/identifier.h"
 #include "core/installation.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -36,7 +38,7 @@ constexpr BusCounterField kBusCounterFields[] = {
 };
 
 OrderedJson BaselineFigures(const World& world, BaselineKind kind) {
-  const Flight flight = FlyBaseline(world, kind);
+  const Episode flight = FlyBaseline(world, kind);
   const AoiFigures figures = Figures(world, flight);
   return {{"total_aoi", figures.total_aoi},
           {"average_aoi", figures.average_aoi},
@@ -115,17 +117,14 @@ std::string OptimumJson(const World& world, const Plan& plan) {
                       {"lower_bound_total_aoi", plan.lower_bound_total_aoi},
                       {"lower_bound_average_aoi", plan.lower_bound_average_aoi},
                       {"labels", plan.labels}};
-  OrderedJson& actions = json["actions"] = OrderedJson::array();
-  for (size_t slot = 0; slot + 1 < plan.flight.slots.size(); ++slot) {
-    actions.push_back(world.ActionIndex(plan.flight.slots[slot].action));
-  }
+  json["actions"] = plan.flight.actions;
   return json.dump();
 }
 
 std::string SummaryJson(const SummaryInputs& inputs) {
   const TrainerProgress& progress = inputs.trainer.progress();
   OrderedJson json;
-  json["run_id"] = fmt::format("{:016x}", static_cast<uint64_t>(inputs.run_id));
+  json["run_id"] = IdentifierText(inputs.run_id);
   json["config_hash"] = fmt::format("{:08x}", inputs.experiment.hash());
   json["seed"] = inputs.experiment.schedule().seed();
   json["completed"] = inputs.completed;

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <memory>
 
@@ -7,9 +6,8 @@
 #include "core/live_line.h"
 #include "core/signals.h"
 #include "logs/event_input.h"
-#include "logs/event_source.h"
 #include "logs/log_player.h"
-#include "tools/log_commands.h"
+#include "tools/subcommands.h"
 
 namespace fresco {
 namespace {
@@ -23,24 +21,18 @@ struct PlayOptions {
 
 /// Plays the logs once. Returns at the end, or if the program is asked to stop.
 void PlayOnce(const PlayOptions& options, LogPlayer& player) {
-  EventSelection selection(options.input.selection);
-  const auto source = OpenEvents(options.input.sources, options.input.seconds);
+  EventInput input(options.input);
   LiveLine line(true);
-  std::optional<int64_t> first_utime;
-  while (const auto event = source->Next()) {
-    first_utime = first_utime.value_or(event->utime);
-    if (selection.Wants(*event)) {
-      player.Play(*event);
-      line.Show(fmt::format("played {} events; at {:.1f} s of the log", player.events(),
-                            1e-6 * static_cast<double>(event->utime - *first_utime)));
-    }
+  while (const auto event = input.Next()) {
+    player.Play(*event);
+    line.Show(
+        fmt::format("played {} events; at {:.1f} s of the log", player.events(), input.SecondsOf(*event)));
   }
-  source->WarnOfLosses();
+  input.WarnOfLosses();
 }
 
 int Play(const PlayOptions& options) {
-  EventSelection(options.input.selection);  // checks the options before a bus is opened
-  OpenEvents(options.input.sources, options.input.seconds).reset();
+  EventInput(options.input);  // checks the options before a bus is opened
   const auto bus = OpenLcmBus(options.lcm_url);
   LogPlayer player(*bus, options.speed);
   do {

@@ -10,7 +10,7 @@
 #include "core/signals.h"
 #include "logs/bus_losses.h"
 #include "logs/recorder.h"
-#include "tools/log_commands.h"
+#include "tools/subcommands.h"
 
 namespace fresco {
 namespace {

@@ -11,8 +11,8 @@
 #include "logs/retrain_run.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
+#include "report/result_display.h"
 #include "report/run_report.h"
-#include "report/train_display.h"
 #include "storage/run_folder.h"
 #include "tools/subcommands.h"
 

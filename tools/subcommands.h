@@ -1,6 +1,5 @@
-// The subcommands of `fresco`, in the order of `fresco --help`. Each function adds its subcommand to the
-// command line. If the user chooses it, parsing sets `command`, which returns the exit status. Used by the
-// main thread.
+// The subcommands of `fresco`. Each function adds its subcommand to the command line. If the user chooses it,
+// parsing sets `command`, which returns the exit status. Used by the main thread.
 #pragma once
 
 #include <functional>
@@ -12,6 +11,7 @@ namespace fresco {
 /// The function to run after the command line was parsed.
 using Command = std::function<int()>;
 
+// In the order of `fresco --help`.
 void AddTrain(CLI::App& app, Command& command);
 void AddEvaluate(CLI::App& app, Command& command);
 void AddRetrain(CLI::App& app, Command& command);
@@ -20,5 +20,9 @@ void AddFigures(CLI::App& app, Command& command);
 void AddSoak(CLI::App& app, Command& command);
 void AddLog(CLI::App& app, Command& command);
 void AddSpy(CLI::App& app, Command& command);
+
+// Subcommands of `fresco log` that have a file of their own.
+void AddLogRecord(CLI::App& log, Command& command);
+void AddLogPlay(CLI::App& log, Command& command);
 
 }  // namespace fresco

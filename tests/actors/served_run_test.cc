@@ -41,7 +41,7 @@ class ServedRunTest : public ::testing::Test {
   std::vector<std::pair<int64_t, bool>> sent_;  // index, and whether again
   ServedRun run_{
       experiment_, RunIdentity{7, experiment_.hash()}, 4,
-      [this](const Episode& episode, bool again) { sent_.emplace_back(episode.order_index, again); }};
+      [this](const OrderResult& result, bool again) { sent_.emplace_back(result.order_index, again); }};
 };
 
 TEST_F(ServedRunTest, SendsAKeptEpisodeAgainButNotTooSoon) {
@@ -101,7 +101,7 @@ TEST_F(ActorMemoryTest, OfEnvironmentsInFlightIsForetoldAtMost) {
       flyer->Start(TrainOrder(index, 1), network, network);
     }
     for (int slot = 1; slot < 59; ++slot) {  // one short of the end
-      flyer->Step([](const Order&, const Episode&) {});
+      flyer->Step([](const Order&, OrderResult&) {});
     }
     EXPECT_EQ(flyer->open_flights(), kEnvironments);
     return flyer;

@@ -28,5 +28,14 @@ TEST(AttentiveClock, NeverGoesBack) {
   EXPECT_EQ(clock.Look(600), begin_us + 100);
 }
 
+TEST(RateMeter, TellsTheRateOfTheLastTimeOfAtLeastASecond) {
+  RateMeter meter;
+  EXPECT_EQ(meter.Measure(0, 0), 0);
+  EXPECT_EQ(meter.Measure(900, 999'999), 0);
+  EXPECT_EQ(meter.Measure(1000, 2'000'000), 500);
+  EXPECT_EQ(meter.Measure(5000, 2'999'999), 500);
+  EXPECT_EQ(meter.Measure(1030, 3'000'000), 30);
+}
+
 }  // namespace
 }  // namespace fresco

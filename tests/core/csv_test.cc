@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "core/files.h"
-#include "tests/report/picture_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -27,7 +27,7 @@ TEST(Csv, KeepsEveryBitOfANumber) {
 }
 
 TEST(Csv, WritesTheFile) {
-  const TemporaryFolder folder("csv");
+  const TemporaryFolder folder;
   WriteCsv(folder.path() / "table.csv", {"radius"}, {{1}, {2.5}});
   EXPECT_EQ(ReadFile(folder.path() / "table.csv"), "radius\n1\n2.5\n");
 }

@@ -3,6 +3,7 @@
 #include <google/protobuf/util/message_differencer.h>
 
 #include "core/error.h"
+#include "core/identifier.h"
 #include "msgs/config_reflection.h"
 #include "msgs/settings.h"
 #include "tests/fuzz/fuzz_input.h"

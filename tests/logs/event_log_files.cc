@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
-#include <unistd.h>
 
 #include <fstream>
 
@@ -87,18 +86,6 @@ std::vector<LogEvent> ReadWithLcm(const std::filesystem::path& path) {
 
 void WriteBytes(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
-}
-
-LogFolder::LogFolder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  path_ = std::filesystem::path(testing::TempDir()) / (std::string("fresco_") + test->test_suite_name() +
-                                                       "_" + test->name() + "_" + std::to_string(getpid()));
-  std::filesystem::remove_all(path_);
-  std::filesystem::create_directories(path_);
-}
-
-LogFolder::~LogFolder() {
-  std::filesystem::remove_all(path_);
 }
 
 }  // namespace fresco

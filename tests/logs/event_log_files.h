@@ -36,17 +36,4 @@ std::vector<LogEvent> ReadWithLcm(const std::filesystem::path& path);
 
 void WriteBytes(const std::filesystem::path& path, const std::string& bytes);
 
-/// A folder of the running test's own; empty at first, gone in the end.
-class LogFolder {
- public:
-  LogFolder();
-  ~LogFolder();
-  LogFolder(const LogFolder&) = delete;
-  LogFolder& operator=(const LogFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace fresco

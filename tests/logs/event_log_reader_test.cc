@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "tests/logs/event_log_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -34,7 +35,7 @@ Reading ReadAll(const std::filesystem::path& path) {
 }
 
 Reading ReadBytes(const std::string& bytes) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   WriteBytes(folder.path() / "log", bytes);
   return ReadAll(folder.path() / "log");
 }
@@ -65,7 +66,7 @@ std::vector<size_t> Boundaries(const std::vector<LogEvent>& events) {
 }
 
 TEST(EventLogReader, ReadsWhatLcmWrites) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const auto events = SampleEvents(300);
   WriteWithLcm(folder.path() / "log", events);
   EventLogReader reader(folder.path() / "log");
@@ -88,7 +89,7 @@ TEST(EventLogReader, ReadsEventsLargerThanItsBlock) {
 }
 
 TEST(EventLogReader, ReadsALogThatIsCutAtAnyByteToTheCut) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder.path() / "log";
   const auto events = SampleEvents(9);
   const std::string bytes = LogBytes(events);
@@ -188,7 +189,7 @@ TEST(EventLogReader, TakesAnEmptyFileAsALogWithoutEvents) {
 }
 
 TEST(EventLogReader, RefusesWhatIsNoLogSayingWhatIs) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   WriteBytes(folder.path() / "text", "utime,channel\n1,A\n");
   EXPECT_NE(ErrorOf(folder.path() / "text").find("ED A1 DA 01"), std::string::npos);
   EXPECT_NE(ErrorOf(folder.path()).find("event log"), std::string::npos);
@@ -196,7 +197,7 @@ TEST(EventLogReader, RefusesWhatIsNoLogSayingWhatIs) {
 }
 
 TEST(EventLogReader, GoesOnWhereALogHasGrown) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder.path() / "log";
   const auto events = SampleEvents(20);
   const std::string bytes = LogBytes(events);

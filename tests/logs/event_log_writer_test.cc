@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "tests/logs/event_log_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -19,7 +20,7 @@ std::string ContentOf(const std::filesystem::path& path) {
 }
 
 TEST(EventLogWriter, WritesWhatLcmReads) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const auto events = SampleEvents(300);
   EventLogWriter writer(folder.path() / "log");
   for (const LogEvent& event : events) {
@@ -34,7 +35,7 @@ TEST(EventLogWriter, WritesWhatLcmReads) {
 }
 
 TEST(EventLogWriter, SplitsIntoPartsThatLcmReadsEachByItself) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const auto events = SampleEvents(100);
   std::vector<LogEvent> read;
   EventLogWriter writer(folder.path() / "log", 2000);
@@ -55,7 +56,7 @@ TEST(EventLogWriter, SplitsIntoPartsThatLcmReadsEachByItself) {
 }
 
 TEST(EventLogWriter, NeverWritesOverAFile) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   for (const auto& [name, split_bytes] : {std::pair("log", 0), std::pair("log.00", 1000)}) {
     WriteBytes(folder.path() / name, "precious");
     try {

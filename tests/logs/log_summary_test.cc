@@ -5,9 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "logs/event_json.h"
-#include "logs/event_selection.h"
-#include "logs/log_summary_text.h"
 #include "tests/msgs/message_samples.h"
 
 namespace fresco {
@@ -68,7 +65,7 @@ TEST(LogSummary, TellsRunsEpisodesAndActors) {
   log.Add("FRESCO_TRANSITIONS", Transitions(0, 4, 2, 1));
   log.Add("FRESCO_TRANSITIONS", Transitions(0, 4, 2, 1));
   log.Add("FRESCO_TRANSITIONS", Transitions(3, 4, 2, 1));
-  EXPECT_FALSE(log.summary.runs().at(kRun.run_id).config_known());
+  EXPECT_FALSE(log.summary.runs().at(kRun.run_id).config_known);
   log.Add("FRESCO_RUN", RunMessage(1, 1));
   for (const int64_t sequence : {5, 6, 9, 10}) {
     log.Add("FRESCO_ACTOR_STATUS", Status(sequence));
@@ -111,47 +108,6 @@ TEST(LogSummary, CountsForeignAndDamagedMessages) {
   EXPECT_EQ(json["channels"][0]["type"], "foreign abababababababab");
   EXPECT_EQ(json["channels"][1]["type"], "mixed");
   EXPECT_TRUE(json["runs"].empty());
-}
-
-TEST(EventJson, ShowsEveryKindOfEvent) {
-  MessageDecoder decoder;
-  const auto bytes = Encoded(Transitions(3, 4, 2, 1));
-  auto json = nlohmann::json::parse(EventJson({0, 5, "FRESCO_TRANSITIONS", bytes}, decoder));
-  EXPECT_EQ(json["type"], "transitions_t");
-  EXPECT_EQ(json["message"]["run_id"], "123456789abcdef0");
-  EXPECT_EQ(json["message"]["order_index"], 3);
-  EXPECT_EQ(json["message"]["aoi"].size(), 3u);
-  json = nlohmann::json::parse(EventJson({0, 5, "FRESCO_TRANSITIONS", std::span(bytes).first(99)}, decoder));
-  EXPECT_EQ(json["type"], "transitions_t");
-  EXPECT_EQ(json["damaged"], true);
-  EXPECT_EQ(json["bytes"], 99);
-  const std::vector<std::byte> foreign(9, std::byte{0xff});
-  json = nlohmann::json::parse(EventJson({0, 5, "\xff", foreign}, decoder));
-  EXPECT_EQ(json["type"], nullptr);
-  EXPECT_EQ(json["fingerprint"], "ffffffffffffffff");
-}
-
-TEST(EventSelection, TakesTimesFromTheFirstEventAndEndsBeforeTheStop) {
-  EventSelection selection({.start_s = 1, .stop_s = 2});
-  const std::vector<std::byte> bytes;
-  std::string wanted;
-  for (const int64_t utime : {5'000'000, 5'999'999, 6'000'000, 6'999'999, 7'000'000}) {
-    wanted += selection.Wants({0, utime, "A", bytes}) ? '1' : '0';
-  }
-  EXPECT_EQ(wanted, "00110");
-}
-
-TEST(EventSelection, DropsOtherRunsOnly) {
-  EventSelection selection({.run = "123456789abcdef0"});
-  const std::vector<std::byte> foreign(100);
-  auto other = Status(1);
-  other.run_id = 5;
-  auto without = Status(1);
-  without.run_id = 0;
-  EXPECT_TRUE(selection.Wants({0, 1, "A", Encoded(Status(1))}));
-  EXPECT_FALSE(selection.Wants({0, 1, "A", Encoded(other)}));
-  EXPECT_TRUE(selection.Wants({0, 1, "A", Encoded(without)}));
-  EXPECT_TRUE(selection.Wants({0, 1, "A", foreign}));
 }
 
 }  // namespace

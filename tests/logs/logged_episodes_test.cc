@@ -11,17 +11,18 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "tests/logs/run_log.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-using Ranges = std::vector<std::pair<int64_t, int64_t>>;
+using Ranges = std::vector<Interval>;
 
 class LoggedEpisodesTest : public testing::Test {
  protected:
-  LoggedEpisodesTest() : directory_(EmptyDirectory("logged_episodes")) {
+  LoggedEpisodesTest() {
     live_.Finish();
     events_ = EventsOf(live_, Identity(live_));
   }
@@ -38,21 +39,19 @@ class LoggedEpisodesTest : public testing::Test {
     });
   }
 
-  std::filesystem::path directory_;
+  const TemporaryFolder folder_;
   RecordedRun live_;
   std::vector<OwnedEvent> events_;
 };
 
 TEST_F(LoggedEpisodesTest, HandsOutTheEpisodesThatWereFlown) {
-  WriteLog(directory_ / "log", events_);
-  LoggedEpisodes episodes = Open({directory_ / "log"});
+  WriteLog(folder_.path() / "log", events_);
+  LoggedEpisodes episodes = Open({folder_.path() / "log"});
   ASSERT_EQ(episodes.whole().size(), live_.episodes.size());
   for (size_t i = 3; i < live_.episodes.size(); i += 2) {
     const Episode episode = episodes.Take(static_cast<int64_t>(i));
-    EXPECT_EQ(episode.order_index, static_cast<int64_t>(i));
     EXPECT_EQ(episode.actions, live_.episodes[i].actions);
     EXPECT_EQ(episode.rewards, live_.episodes[i].rewards);
-    EXPECT_EQ(episode.td_errors, live_.episodes[i].td_errors);
     EXPECT_EQ(episode.next_masks, live_.episodes[i].next_masks);
     EXPECT_EQ(episode.outcome, live_.episodes[i].outcome);
   }
@@ -60,8 +59,8 @@ TEST_F(LoggedEpisodesTest, HandsOutTheEpisodesThatWereFlown) {
 
 TEST_F(LoggedEpisodesTest, NamesWhatIsMissingAsRanges) {
   Remove({0, 1, 2, 10, 20, 21});
-  WriteLog(directory_ / "log", events_);
-  const LoggedEpisodes episodes = Open({directory_ / "log"});
+  WriteLog(folder_.path() / "log", events_);
+  const LoggedEpisodes episodes = Open({folder_.path() / "log"});
   EXPECT_EQ(episodes.Missing(), (Ranges{{0, 2}, {10, 10}, {20, 21}}));
 }
 
@@ -71,16 +70,16 @@ TEST_F(LoggedEpisodesTest, PutsTogetherWhatSeveralRecordersHeard) {
   for (size_t i = 0; i < events_.size(); ++i) {
     (i / 2 % 2 == 0 ? even : odd).push_back(events_[i]);
   }
-  WriteLog(directory_ / "even", even);
-  WriteLog(directory_ / "odd", odd);
-  EXPECT_FALSE(Open({directory_ / "even"}).Missing().empty());
-  LoggedEpisodes both = Open({directory_ / "odd", directory_ / "even"});
+  WriteLog(folder_.path() / "even", even);
+  WriteLog(folder_.path() / "odd", odd);
+  EXPECT_FALSE(Open({folder_.path() / "even"}).Missing().empty());
+  LoggedEpisodes both = Open({folder_.path() / "odd", folder_.path() / "even"});
   EXPECT_EQ(both.whole().size(), live_.episodes.size());
   EXPECT_EQ(both.Take(7).actions, live_.episodes[7].actions);
 }
 
 TEST_F(LoggedEpisodesTest, KnowsTrainingFromEvaluationByTheOrders) {
-  WriteLog(directory_ / "log", events_);
+  WriteLog(folder_.path() / "log", events_);
   std::vector<int64_t> expected;
   for (const Order& order : live_.orders) {
     if (order.kind == OrderKind::kTrain) {
@@ -88,19 +87,19 @@ TEST_F(LoggedEpisodesTest, KnowsTrainingFromEvaluationByTheOrders) {
     }
   }
   EXPECT_EQ(expected.size(), 60u);
-  EXPECT_EQ(Open({directory_ / "log"}).Training(), expected);
+  EXPECT_EQ(Open({folder_.path() / "log"}).Training(), expected);
   std::erase_if(events_, [](const OwnedEvent& event) { return event.channel == "FRESCO_ORDERS"; });
-  WriteLog(directory_ / "without orders", events_);
-  EXPECT_TRUE(Open({directory_ / "without orders"}).Training().empty());
+  WriteLog(folder_.path() / "without orders", events_);
+  EXPECT_TRUE(Open({folder_.path() / "without orders"}).Training().empty());
 }
 
 TEST_F(LoggedEpisodesTest, ReadsAuthenticatedMessages) {
   for (OwnedEvent& event : events_) {
     event.message.insert(event.message.end(), kAuthenticationTagBytes, std::byte{7});
   }
-  WriteLog(directory_ / "log", events_);
-  EXPECT_EQ(Open({directory_ / "log"}).whole().size(), live_.episodes.size());
-  EXPECT_EQ(FindLoggedRuns({{directory_ / "log"}}).size(), 1u);
+  WriteLog(folder_.path() / "log", events_);
+  EXPECT_EQ(Open({folder_.path() / "log"}).whole().size(), live_.episodes.size());
+  EXPECT_EQ(FindLoggedRuns({{folder_.path() / "log"}}).size(), 1u);
 }
 
 /// The same events as they stand on a bus with this key.
@@ -127,11 +126,11 @@ TEST_F(LoggedEpisodesTest, TakesOnlyWhatIsAuthenticatedWhereThereIsAKey) {
   const size_t episodes = live_.episodes.size();
   std::vector<OwnedEvent> log = Authenticated(events_, key);
   log.insert(log.end(), events_.begin(), events_.end());
-  WriteLog(directory_ / "log", log);
-  const LoggedEpisodes authentic = Open({directory_ / "log"}, key);
+  WriteLog(folder_.path() / "log", log);
+  const LoggedEpisodes authentic = Open({folder_.path() / "log"}, key);
   EXPECT_EQ(authentic.whole().size(), episodes);
   EXPECT_EQ(authentic.refused(), static_cast<int64_t>(events_.size()));
-  const LoggedEpisodes strange = Open({directory_ / "log"}, other_key);
+  const LoggedEpisodes strange = Open({folder_.path() / "log"}, other_key);
   EXPECT_TRUE(strange.whole().empty());
   EXPECT_EQ(strange.refused(), static_cast<int64_t>(log.size()));
 }
@@ -151,15 +150,15 @@ TEST_F(LoggedEpisodesTest, HoldsNoMoreThanBoundedPiecesWhateverTheLogHolds) {
     Encode(message, flood[i].message);
   }
   flood.insert(flood.end(), events_.begin(), events_.end());
-  WriteLog(directory_ / "log", flood);
-  LoggedEpisodes episodes = Open({directory_ / "log"});
+  WriteLog(folder_.path() / "log", flood);
+  LoggedEpisodes episodes = Open({folder_.path() / "log"});
   EXPECT_EQ(episodes.Missing(), Ranges{});
   EXPECT_EQ(episodes.Take(30).actions, live_.episodes[30].actions);
 }
 
 TEST_F(LoggedEpisodesTest, KnowsTheNetworksByTheirCrc) {
-  WriteLog(directory_ / "log", events_);
-  const LoggedEpisodes episodes = Open({directory_ / "log"});
+  WriteLog(folder_.path() / "log", events_);
+  const LoggedEpisodes episodes = Open({folder_.path() / "log"});
   const Vector& last = *live_.current_versions.back();
   const auto version = static_cast<int32_t>(live_.current_versions.size() - 1);
   EXPECT_EQ(episodes.WeightsCrc(NetworkKind::kCurrent, version),
@@ -171,8 +170,8 @@ TEST_F(LoggedEpisodesTest, FindsTheRunsOfALogAndTheirConfiguration) {
   std::vector<OwnedEvent> others = EventsOf(live_, Identity(live_, 78));
   std::erase_if(others, [](const OwnedEvent& event) { return event.channel == "FRESCO_RUN"; });
   events_.insert(events_.end(), others.begin(), others.end());
-  WriteLog(directory_ / "log", events_);
-  const std::vector<LoggedRun> runs = FindLoggedRuns({{directory_ / "log"}});
+  WriteLog(folder_.path() / "log", events_);
+  const std::vector<LoggedRun> runs = FindLoggedRuns({{folder_.path() / "log"}});
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_EQ(runs[0].identity, Identity(live_));
   EXPECT_EQ(runs[0].config_text, live_.experiment.Text());

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "logs/event_log_writer.h"
 #include "tests/logs/event_log_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -23,7 +24,7 @@ std::vector<LogEvent> ReadAll(MergedEventLogs& logs) {
 }
 
 TEST(MergedEventLogs, JoinThePartsOfASplitLogInAnyOrder) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const auto events = SampleEvents(100);
   EventLogWriter writer(folder.path() / "log", 2000);
   for (const LogEvent& event : events) {
@@ -40,7 +41,7 @@ TEST(MergedEventLogs, JoinThePartsOfASplitLogInAnyOrder) {
 }
 
 TEST(MergedEventLogs, OrderOverlappingLogsByTime) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const auto events = SampleEvents(300);
   std::vector<std::vector<LogEvent>> shares(3);
   for (size_t i = 0; i < events.size(); ++i) {
@@ -56,7 +57,7 @@ TEST(MergedEventLogs, OrderOverlappingLogsByTime) {
 }
 
 TEST(MergedEventLogs, PutTheFirstNamedFirstAtTheSameTime) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   WriteWithLcm(folder.path() / "a", {{5, "A", "1"}, {7, "A", "2"}, {7, "A", "3"}});
   WriteWithLcm(folder.path() / "b", {{5, "B", "1"}, {7, "B", "2"}});
   for (const bool a_first : {true, false}) {
@@ -71,7 +72,7 @@ TEST(MergedEventLogs, PutTheFirstNamedFirstAtTheSameTime) {
 }
 
 TEST(MergedEventLogs, KeepAnEventInItsPlaceWhoseClockWentBackwards) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   WriteWithLcm(folder.path() / "a", {{5, "A", "1"}, {2, "A", "2"}, {9, "A", "3"}});
   WriteWithLcm(folder.path() / "b", {{3, "B", "1"}, {6, "B", "2"}});
   MergedEventLogs logs({folder.path() / "a", folder.path() / "b"});
@@ -83,7 +84,7 @@ TEST(MergedEventLogs, KeepAnEventInItsPlaceWhoseClockWentBackwards) {
 }
 
 TEST(MergedEventLogs, CountCutsAndDamageOfAll) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   const std::string bytes = LogBytes(SampleEvents(4));
   WriteBytes(folder.path() / "cut", bytes.substr(0, bytes.size() - 3));
   WriteBytes(folder.path() / "damaged", bytes + "rubbish" + bytes);
@@ -96,7 +97,7 @@ TEST(MergedEventLogs, CountCutsAndDamageOfAll) {
 }
 
 TEST(MergedEventLogs, RefuseAFileThatIsNoLogBeforeAnythingIsRead) {
-  const LogFolder folder;
+  const TemporaryFolder folder;
   WriteWithLcm(folder.path() / "a", SampleEvents(2));
   EXPECT_THROW(MergedEventLogs({folder.path() / "a", folder.path() / "none"}), Error);
 }

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "tests/logs/run_log.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -27,7 +28,7 @@ class RetrainingTest : public testing::Test {
   /// Trains from a log of these events to the end.
   std::unique_ptr<Retraining> Retrain(const std::vector<OwnedEvent>& events, const Experiment& experiment,
                                       Use use = Use::kSameRun, bool strict = false) {
-    const auto path = EmptyDirectory("retraining") / "log";
+    const auto path = folder_.path() / "log";
     WriteLog(path, events);
     episodes_ = std::make_unique<LoggedEpisodes>(LogSource{{path}}, Identity(live_), live_.world,
                                                  live_.experiment.mask_options());
@@ -50,6 +51,7 @@ class RetrainingTest : public testing::Test {
 
   int64_t orders() const { return static_cast<int64_t>(live_.orders.size()); }
 
+  const TemporaryFolder folder_;
   RecordedRun live_;
   std::unique_ptr<LoggedEpisodes> episodes_;
   std::vector<Evaluation> evaluations_;
@@ -155,7 +157,7 @@ TEST_F(RetrainingTest, GivesExperienceToTrainingOrdersInTheirOrder) {
 TEST_F(RetrainingTest, LeavesOutExperienceThatItsMasksForbid) {
   RecordedRun unmasked(Settings{{"agent.coverage_mask", "false"}});
   unmasked.Finish();
-  const auto path = EmptyDirectory("unmasked") / "log";
+  const auto path = folder_.path() / "log";
   WriteLog(path, EventsOf(unmasked, Identity(unmasked)));
   LoggedEpisodes episodes({{path}}, Identity(unmasked), unmasked.world, unmasked.experiment.mask_options());
   const Experiment masked = SmallExperiment({{"schedule.episodes", "3"}});

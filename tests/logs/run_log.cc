@@ -1,7 +1,5 @@
 #include "tests/logs/run_log.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
 #include "core/bytes.h"
@@ -70,8 +68,8 @@ std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity) {
     orders.order_count = 1;
     orders.orders = {ToWire(run.orders[i], 5, 0)};
     events.Add("FRESCO_ORDERS", orders);
-    SplitEpisode(run.world, run.episodes[i], 5,
-                 [&](const transitions_t& message) { events.Add("FRESCO_TRANSITIONS", message); });
+    SplitResult(run.world, ResultOf(run.orders[i].index, run.episodes[i]), 5,
+                [&](const transitions_t& message) { events.Add("FRESCO_TRANSITIONS", message); });
   }
   return std::move(events).events();
 }
@@ -82,13 +80,6 @@ void WriteLog(const std::filesystem::path& path, const std::vector<OwnedEvent>& 
     writer.Write({0, event.utime, event.channel, event.message});
   }
   writer.Flush();
-}
-
-std::filesystem::path EmptyDirectory(const std::string& name) {
-  const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::remove_all(directory);
-  std::filesystem::create_directories(directory);
-  return directory;
 }
 
 }  // namespace fresco

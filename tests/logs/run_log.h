@@ -27,7 +27,4 @@ std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity);
 
 void WriteLog(const std::filesystem::path& path, const std::vector<OwnedEvent>& events);
 
-/// A directory of the test's own, empty.
-std::filesystem::path EmptyDirectory(const std::string& name);
-
 }  // namespace fresco

@@ -138,14 +138,6 @@ TEST(Settings, AreCheckedAgainstTheRangesLikeTheText) {
               HasSubstr("agent.batch_size: 0 is out of range; allowed: 1 to 65536"));
 }
 
-TEST(RunId, IsUpToSixteenHexadecimalDigits) {
-  EXPECT_EQ(ParseRunId("1f"), 31);
-  EXPECT_EQ(ParseRunId("ffffffffffffffff"), -1);
-  for (const std::string text : {"", "0", "0000", "g", "1 ", "-1", "0x1", "10000000000000000"}) {
-    EXPECT_THAT(UsageErrorOf([&] { ParseRunId(text); }), HasSubstr("\"" + text + "\"")) << text;
-  }
-}
-
 TEST(ChannelNames, HaveThePrefix) {
   EXPECT_EQ(ChannelsWithPrefix("X").learner_status, "X_LEARNER_STATUS");
   for (const std::string& prefix :

@@ -1,4 +1,4 @@
-#include "report/learning_curve.h"
+#include "report/run_report.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "core/files.h"
 #include "tests/report/picture_files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -72,7 +73,7 @@ TEST(LearningCurve, DrawsHundredsOfFlights) {
   for (int i = 0; i < 700; ++i) {
     curve.points.push_back({i * 100, 13 + 700.0 / (i + 40) + (i * 37 % 11) * 0.1, i % 7 != 3});
   }
-  const TemporaryFolder folder("learning-curve");
+  const TemporaryFolder folder;
   WritePicture(DrawLinePlot(LearningCurvePlot(curve)), folder.path() / "curve");
   ASSERT_TRUE(ParsesAsXml(folder.path() / "curve.svg"));
   const std::string svg = ReadFile(folder.path() / "curve.svg");
@@ -82,7 +83,7 @@ TEST(LearningCurve, DrawsHundredsOfFlights) {
 
 TEST(LearningCurve, CanBeDrawnBeforeAnyFlightHasArrived) {
   const LearningCurve curve{.title = "early", .points = {{100, 35, false}, {200, 30, false}}};
-  const TemporaryFolder folder("learning-curve");
+  const TemporaryFolder folder;
   WritePicture(DrawLinePlot(LearningCurvePlot(curve)), folder.path() / "curve");
   EXPECT_EQ(Count(ReadFile(folder.path() / "curve.svg"), "<use xlink:href='#gpPt1'"), 2 + 1);
 }

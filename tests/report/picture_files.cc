@@ -1,25 +1,13 @@
 #include "tests/report/picture_files.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <iterator>
 #include <sstream>
 
 namespace fresco {
 
-TemporaryFolder::TemporaryFolder(const std::string& name)
-    : path_(std::filesystem::temp_directory_path() / ("fresco-" + name + "-" + std::to_string(getpid()))) {
-  std::filesystem::remove_all(path_);
-  std::filesystem::create_directories(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::filesystem::remove_all(path_);
-}
-
-int TemporaryFolder::files() const {
-  return static_cast<int>(std::distance(std::filesystem::directory_iterator(path_), {}));
+int FileCount(const std::filesystem::path& folder) {
+  return static_cast<int>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
 bool ParsesAsXml(const std::filesystem::path& path) {

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/report/picture_files.h"
 #include "tests/worlds/test_scenarios.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -34,14 +36,6 @@ std::vector<std::string> Matches(const std::string& text, const std::string& pat
     found.push_back((*match)[1]);
   }
   return found;
-}
-
-int Count(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
-    ++count;
-  }
-  return count;
 }
 
 /// What a browser reads between a tag and the next end tag of a script.
@@ -132,7 +126,8 @@ TEST_F(ReportTest, CarriesEverySlotOfEveryFlight) {
     EXPECT_EQ(flights[number]["outcome"], "arrived");
     ASSERT_EQ(flights[number]["flight"].size(), 70);
     for (size_t slot = 0; slot < 70; ++slot) {
-      const auto& [state, action] = expected.flight.slots[slot];
+      const State& state = expected.flight.states[slot];
+      const Action action = ActionIn(*contents.world, expected.flight, slot);
       const Json& found = flights[number]["flight"][slot];
       EXPECT_EQ(found["slot"], slot + 1);
       EXPECT_EQ(found["column"], state.cell.column);

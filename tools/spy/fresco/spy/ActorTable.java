@@ -8,14 +8,14 @@ import java.util.List;
 import java.util.Map;
 import javax.swing.table.AbstractTableModel;
 
-/** The newest status of every actor of a run, as the rows of a table. On the event thread. */
+/** The newest status of every actor of a run, as the rows of a table. Used on the event thread. */
 final class ActorTable extends AbstractTableModel {
   private static final long serialVersionUID = 1;
   private static final int MOST_ACTORS = 256;
   private static final double SILENT_S = 3;
   private static final double FORGOTTEN_S = 60;
 
-  /** An actor as it was heard of last. */
+  /** An actor and when its last status came. */
   static final class Actor {
     final actor_status_t status;
     final long heardNs;
@@ -69,7 +69,7 @@ final class ActorTable extends AbstractTableModel {
 
   void clear() { actors.clear(); }
 
-  /** Takes over what was heard, forgets who is long silent, and shows it. */
+  /** Shows the newest statuses. Forgets actors that have been silent for long. */
   void refresh() {
     actors.values().removeIf(actor -> actor.silentS() > FORGOTTEN_S);
     rows = new ArrayList<>(actors.values());

@@ -15,7 +15,7 @@ import javax.swing.JTable;
 import javax.swing.SwingConstants;
 import javax.swing.table.DefaultTableCellRenderer;
 
-/** A run's actors: what each says of itself, and how fast it flies. On the event thread. */
+/** Shows a run's actors: the status of each, and how fast it flies. Used on the event thread. */
 final class ActorWindow extends Window {
   private static final int PERIOD_MS = 500;
   private static final double SHOWN_S = 120;
@@ -54,7 +54,7 @@ final class ActorWindow extends Window {
     return content;
   }
 
-  /** The silent ones are pale. */
+  /** Draws silent actors pale. */
   private final class Renderer extends DefaultTableCellRenderer {
     private static final long serialVersionUID = 1;
 
@@ -75,7 +75,7 @@ final class ActorWindow extends Window {
   }
 
   private void add(actor_status_t status) {
-    if (status.run_id == 0 || status.actor_id == 0) { // looks for a run
+    if (status.run_id == 0 || status.actor_id == 0) { // it looks for a run
       return;
     }
     RunFollower.Hearing hearing = run.hear(status.run_id);
@@ -118,7 +118,7 @@ final class ActorWindow extends Window {
     forgetThoseThatAreGone();
   }
 
-  /** Null where there are as many as there are colours. */
+  /** Returns the actor's curve; null if there are no more colours. */
   private ITrace2D traceOf(ActorTable.Actor actor) {
     ITrace2D trace = traces.get(actor.status.actor_id);
     if (trace == null && traces.size() < Palette.SERIES_COLOURS) {

@@ -4,7 +4,7 @@ import info.monitorenter.gui.chart.ITrace2D;
 import java.util.ArrayList;
 import java.util.List;
 
-/** The age of each sensor's data, slot by slot, up to the one that is shown. On the event thread. */
+/** Shows the age of each sensor's data up to the slot that is shown. Used on the event thread. */
 final class AoiChart {
   private final Curves curves = new Curves("Age of information", "slot", "AoI, slots");
   private final List<ITrace2D> traces = new ArrayList<>();

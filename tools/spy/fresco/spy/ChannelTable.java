@@ -8,8 +8,8 @@ import lcm.spy.ChannelData;
 import lcm.spy.Spy;
 
 /**
- * lcm-spy's table as lines on standard output, once a second: channel, type, messages received, undecodable.
- * lcm-spy keeps the table to itself, so it is read by reflection.
+ * Prints lcm-spy's table on standard output once a second, a line for each channel: its name, type, and the
+ * numbers of received and of undecodable messages. lcm-spy keeps it private, so it is read by reflection.
  */
 final class ChannelTable {
   private static final int PERIOD_MS = 1000;

@@ -23,10 +23,10 @@ import javax.swing.BorderFactory;
 import javax.swing.JLabel;
 import javax.swing.JPanel;
 
-/** A chart with a heading, axes with units and a legend, of curves that grow. On the event thread. */
+/** A chart of growing curves with a heading, axes with units and a legend. Used on the event thread. */
 final class Curves extends JPanel {
   private static final long serialVersionUID = 1;
-  private static final int POINTS = 4000; // of a curve; the oldest go
+  private static final int POINTS = 4000; // of a curve; the oldest are dropped
   private static final int X_TICKS = 10;
   private static final int Y_TICKS = 6;
 
@@ -48,7 +48,7 @@ final class Curves extends JPanel {
     chart.setToolTipType(Chart2D.ToolTipType.VALUE_SNAP_TO_TRACEPOINTS);
     chart.setAxisXBottom(axisWithOurTicks(), 0);
     chart.setAxisYLeft(axisWithOurTicks(), 0);
-    prepare(chart.getAxisX(), xTitle); // afterwards: a new axis takes over what the old one had
+    prepare(chart.getAxisX(), xTitle); // now, since a new axis takes over the title of the old one
     prepare(chart.getAxisY(), yTitle);
     add(chart, BorderLayout.CENTER);
   }
@@ -78,7 +78,7 @@ final class Curves extends JPanel {
 
   void remove(ITrace2D trace) { chart.removeTrace(trace); }
 
-  /** The x axis shows this range whatever the curves have. */
+  /** Sets the range of the x axis, whatever points the curves have. */
   void setXRange(double from, double to) {
     setRange(chart.getAxisX(), from, Math.max(to, from + 1), X_TICKS);
   }
@@ -87,10 +87,10 @@ final class Curves extends JPanel {
     setRange(chart.getAxisY(), from, Math.max(to, from + 1), Y_TICKS);
   }
 
-  /** Fits the y axis to the curves; from zero on unless they stay far above it. */
+  /** Fits the y axis to the curves. It begins at zero unless they stay far above that. */
   void fitY() { fitYFrom(-Double.MAX_VALUE); }
 
-  /** The same, to the newer half of the curves: what falls fast at first is told apart where it is small. */
+  /** Fits it to the newer half of the curves: those that fall fast at first are legible afterwards. */
   void fitYToNewerHalf() {
     List<ITrace2D> drawn = chart.getTraces().stream().filter(trace -> !trace.isEmpty()).toList();
     double first = drawn.stream().mapToDouble(ITrace2D::getMinX).min().orElse(0);

@@ -4,10 +4,7 @@ import fresco.transitions_t;
 import java.util.Map;
 import java.util.TreeMap;
 
-/**
- * Puts whole episodes together from transitions_t messages, in whatever order they come. On the event
- * thread.
- */
+/** Joins transitions_t messages, in any order, to whole episodes. Used on the event thread. */
 final class Episodes {
   private static final int OPEN_EPISODES = 256;
   private static final int REMEMBERED_EPISODES = 1024;
@@ -17,7 +14,7 @@ final class Episodes {
   private final Map<Key, TreeMap<Integer, transitions_t>> open = new RecentMap<>(OPEN_EPISODES);
   private final Map<Key, Boolean> done = new RecentMap<>(REMEMBERED_EPISODES);
 
-  /** The episode that the message completes; null: none. */
+  /** Returns the episode if the message completes one, otherwise null. */
   Flight add(transitions_t message) {
     Key key = new Key(message.run_id, message.order_index);
     if (!isSound(message) || done.containsKey(key)) {

@@ -11,7 +11,7 @@ import javax.swing.BorderFactory;
 import javax.swing.JLabel;
 import javax.swing.JPanel;
 
-/** Names with values beside them, in one or more columns of such pairs. On the event thread. */
+/** A list of names and values in one or more columns. Used on the event thread. */
 final class Facts extends JPanel {
   private static final long serialVersionUID = 1;
 

@@ -3,7 +3,7 @@ package fresco.spy;
 import java.util.List;
 
 /**
- * The field that a run flies over: scenario_t, checked. Positions are in metres, east and north of the centre
+ * The field of a run, from checked scenario_t messages. Positions are in metres, east and north of the centre
  * of cell (0, 0). Immutable.
  */
 record Field(int columns, int rows, double cellM, Cell start, Cell stop, int slots, double coverageRadiusM,
@@ -12,7 +12,7 @@ record Field(int columns, int rows, double cellM, Cell start, Cell stop, int slo
 
   record Sensor(double xM, double yM, double weight) {}
 
-  /** theta_n: the weight of each sensor as a share of all. */
+  /** Returns theta_n: the weight of each sensor as a share of the sum. */
   double[] theta() {
     double sum = sensors.stream().mapToDouble(Sensor::weight).sum();
     return sensors.stream().mapToDouble(sensor -> sum > 0 ? sensor.weight() / sum : 0).toArray();
@@ -22,7 +22,7 @@ record Field(int columns, int rows, double cellM, Cell start, Cell stop, int slo
     return column >= 0 && column < columns && row >= 0 && row < rows;
   }
 
-  /** Whether the UAV over the cell hears sensor n (0-based). */
+  /** Whether a UAV over the cell can collect from the sensor (0-based). */
   boolean covers(int column, int row, int sensor) {
     Sensor at = sensors.get(sensor);
     return Math.hypot(column * cellM - at.xM, row * cellM - at.yM) <= coverageRadiusM;

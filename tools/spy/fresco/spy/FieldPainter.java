@@ -7,7 +7,7 @@ import java.awt.geom.Line2D;
 import java.awt.geom.Point2D;
 import java.awt.geom.Rectangle2D;
 
-/** Paints what of a field does not move: the grid with its axes, and the two ends of a flight. */
+/** Paints the fixed parts of a field: the grid with its axes, start and stop. */
 final class FieldPainter {
   private static final int MOST_LINES = 25;
   private static final int MOST_TICKS = 6;
@@ -20,7 +20,7 @@ final class FieldPainter {
     this.view = view;
   }
 
-  /** The smallest of 1, 2, 5, 10, 20 .. that cuts the length into at most so many parts. */
+  /** Returns the smallest of 1, 2, 5, 10, 20, .. that divides the length into at most so many parts. */
   static double niceStep(double length, int most) {
     double step = Math.pow(10, Math.floor(Math.log10(length / most)));
     for (double factor : new double[] {1, 2, 5}) {

@@ -10,7 +10,7 @@ import java.awt.geom.Point2D;
 import java.awt.geom.Rectangle2D;
 import javax.swing.JPanel;
 
-/** The field seen from above with the flight that is shown over it. On the event thread. */
+/** Shows a flight over its field, seen from above. Used on the event thread. */
 final class FieldPanel extends JPanel {
   private static final long serialVersionUID = 1;
 
@@ -24,7 +24,7 @@ final class FieldPanel extends JPanel {
     setPreferredSize(new Dimension(740, 700));
   }
 
-  /** A flight over its field at a position (see Player). */
+  /** Shows a flight over its field at a position (see Player). */
   void show(Field over, Flight flown, double at) {
     field = over;
     flight = flown;
@@ -32,7 +32,7 @@ final class FieldPanel extends JPanel {
     repaint();
   }
 
-  /** There is nothing to draw yet: what is missing. */
+  /** Shows a text instead, which says what is missing. */
   void showMissing(String what) {
     field = null;
     missing = what;

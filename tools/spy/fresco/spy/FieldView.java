@@ -5,7 +5,7 @@ import java.awt.geom.Ellipse2D;
 import java.awt.geom.Point2D;
 import java.awt.geom.Rectangle2D;
 
-/** Where places of a field lie on the screen: the field whole, north up, with room for axes. Immutable. */
+/** Maps places of a field to the screen: the whole field, north up, with room for axes. Immutable. */
 final class FieldView {
   private static final int LEFT = 62;
   private static final int RIGHT = 86; // the colour scale
@@ -28,7 +28,7 @@ final class FieldView {
 
   double cellPixels() { return cellPixels; }
 
-  /** The centre of a cell; columns and rows may be fractions. */
+  /** Returns the centre of a cell. Columns and rows may be fractions. */
   Point2D.Double place(double column, double row) {
     return new Point2D.Double(left + (column + 0.5) * cellPixels, bottom - (row + 0.5) * cellPixels);
   }

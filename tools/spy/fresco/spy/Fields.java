@@ -5,9 +5,7 @@ import fresco.scenario_t;
 import java.util.Arrays;
 import java.util.Map;
 
-/**
- * The fields of the runs heard of last, put together from their scenario_t messages. On the event thread.
- */
+/** Joins scenario_t messages to the fields of the latest runs. Used on the event thread. */
 final class Fields {
   private static final int REMEMBERED_RUNS = 16;
   static final int MAXIMUM_SLOTS = 10_000;
@@ -23,7 +21,7 @@ final class Fields {
   private final Map<Long, Parts> parts = new RecentMap<>(REMEMBERED_RUNS);
   private final Map<Long, Field> fields = new RecentMap<>(REMEMBERED_RUNS);
 
-  /** The run's field; null where it is not, or not wholly, known yet. */
+  /** Returns the run's field; null if some part of it is not known yet. */
   Field of(long runId) { return fields.get(runId); }
 
   void add(scenario_t message) {
@@ -74,6 +72,6 @@ final class Fields {
   }
 
   private static boolean isWithin(double value, double low, double high) {
-    return value >= low && value <= high; // not a number: no
+    return value >= low && value <= high; // false for NaN
   }
 }

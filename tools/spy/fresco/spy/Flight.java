@@ -4,7 +4,7 @@ import java.util.ArrayList;
 import java.util.Arrays;
 import java.util.List;
 
-/** A flight as far as it is known: an episode of a run, or what `fresco fly` shows. On the event thread. */
+/** The known part of a flight: an episode, or a flight of `fresco fly`. Used on the event thread. */
 final class Flight {
   static final int FLYING = 0;
   private static final String[] OUTCOMES = {"flying", "arrived", "out of time", "out of energy"};
@@ -12,10 +12,10 @@ final class Flight {
   final long runId;
   final long number; // the order's index, or that of fly's flight
   final String source; // who flew it, for people
-  final boolean live; // its slots arrive as they are flown
+  final boolean live; // its slots arrive while it is flown
   final List<Step> steps = new ArrayList<>();
   int outcome = FLYING;
-  String kind; // what it is, for people
+  String kind; // what kind of flight it is, for people
 
   Flight(long runId, long number, String kind, String source, boolean live) {
     this.runId = runId;
@@ -29,10 +29,10 @@ final class Flight {
 
   String outcomeName() { return outcome >= 0 && outcome < OUTCOMES.length ? OUTCOMES[outcome] : "?"; }
 
-  /** The AoI of all sensors in the first `count` steps. */
+  /** Returns the sum of the AoI of all sensors in the first `count` steps. */
   long totalAoi(int count) { return steps.stream().limit(count).mapToLong(Step::totalAoi).sum(); }
 
-  /** The weighted mean AoI of the first `count` steps, slots; without its field all sensors weigh alike. */
+  /** Returns the weighted mean AoI of the first `count` steps, slots. Without a field, all weights are equal. */
   double averageAoi(int count, Field field) {
     double[] theta = field == null ? new double[sensors()] : field.theta();
     if (field == null) {
@@ -47,7 +47,7 @@ final class Flight {
     return sum / count;
   }
 
-  /** The largest AoI of scales and axes: what the flight comes to, rounded up, so that it seldom changes. */
+  /** Returns the largest AoI of scales and axes: that of the flight, rounded up. */
   int scale() {
     int oldest = steps.stream().mapToInt(Step::oldest).max().orElse(1);
     return Math.max(10, (oldest + 9) / 10 * 10);

@@ -2,7 +2,7 @@ package fresco.spy;
 
 import java.awt.Color;
 
-/** A flight in numbers, at the slot that is shown. On the event thread. */
+/** Shows the numbers of a flight at the slot that is shown. Used on the event thread. */
 final class FlightFacts {
   private final Facts facts =
       new Facts(1, "run", "flight", "order", "flown by", "slot", "over cell", "move", "collects",
@@ -10,7 +10,7 @@ final class FlightFacts {
 
   Facts component() { return facts; }
 
-  /** `field` may be null: not known yet. */
+  /** @param field null if it is not known yet */
   void show(Flight flight, int shown, Field field) {
     Step now = flight.steps.get(shown - 1);
     boolean over = flight.outcome != Flight.FLYING && shown == flight.steps.size();

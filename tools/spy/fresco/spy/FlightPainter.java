@@ -8,10 +8,7 @@ import java.awt.Shape;
 import java.awt.geom.Line2D;
 import java.awt.geom.Point2D;
 
-/**
- * Paints what moves over a field: sensors as old as their data, the UAV, where it came from, what it
- * collects.
- */
+/** Paints what changes over a field: the age of the sensors' data, the UAV, its path and its collections. */
 final class FlightPainter {
   private static final int MOST_WITH_NUMBERS = 60; // sensors
   private static final int MOST_FILLED = 25;
@@ -56,7 +53,7 @@ final class FlightPainter {
     clipped.dispose();
   }
 
-  /** The way so far; the older, the paler. */
+  /** Paints the path so far. Older parts are paler. */
   void paintTrail(Graphics2D g, Point2D uav) {
     double width = Math.max(1.5, Math.min(4, view.cellPixels() / 7));
     g.setStroke(Palette.stroke(width));
@@ -69,7 +66,7 @@ final class FlightPainter {
     }
   }
 
-  /** Where data were collected. */
+  /** Paints a dot wherever data were collected. */
   void paintCollections(Graphics2D g) {
     double radius = Math.max(1.5, Math.min(4.5, view.cellPixels() / 6));
     g.setStroke(Palette.stroke(1.2));
@@ -129,7 +126,7 @@ final class FlightPainter {
     Text.haloed(g, name, x, place.getY() + (above ? -20 : 29), Palette.INK);
   }
 
-  /** A quadrotor from above. */
+  /** Paints a quadrotor, seen from above. */
   void paintUav(Graphics2D g, Point2D uav) {
     double arm = Math.max(5, Math.min(11, 0.45 * view.cellPixels()));
     g.setStroke(Palette.stroke(6));

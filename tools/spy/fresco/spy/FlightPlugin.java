@@ -8,7 +8,7 @@ import javax.swing.JDesktopPane;
 import lcm.spy.ChannelData;
 import lcm.spy.SpyPlugin;
 
-/** The UAV over its field, as a viewer of lcm-spy, which finds this class by itself. */
+/** The window of flights as a viewer of lcm-spy, which finds this class by itself. */
 public final class FlightPlugin implements SpyPlugin {
   @Override
   public boolean canHandle(long fingerprint) {
@@ -18,6 +18,6 @@ public final class FlightPlugin implements SpyPlugin {
 
   @Override
   public Action getAction(JDesktopPane desktop, ChannelData channel) {
-    return new WindowAction(Windows.FLIGHT, channel);
+    return Windows.FLIGHT.action(channel);
   }
 }

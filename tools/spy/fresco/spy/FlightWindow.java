@@ -10,7 +10,7 @@ import javax.swing.JLabel;
 import javax.swing.JPanel;
 import javax.swing.JToggleButton;
 
-/** The UAV over its field: episodes of a run, and what `fresco fly` shows. On the event thread. */
+/** Shows flights: episodes of a run, and those of `fresco fly`. Used on the event thread. */
 final class FlightWindow extends Window {
   private static final int PERIOD_MS = 40;
   private static final Integer[] PACES = {2, 4, 8, 16, 32};

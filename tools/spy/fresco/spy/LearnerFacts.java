@@ -6,7 +6,7 @@ import java.awt.Color;
 import javax.swing.JPanel;
 import javax.swing.JProgressBar;
 
-/** A learner's status in numbers. On the event thread. */
+/** Shows the numbers of a learner's status. Used on the event thread. */
 final class LearnerFacts {
   private static final int PARTS = 1000; // of the bar
   private static final double SILENT_S = 2;

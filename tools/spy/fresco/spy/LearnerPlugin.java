@@ -7,7 +7,7 @@ import javax.swing.JDesktopPane;
 import lcm.spy.ChannelData;
 import lcm.spy.SpyPlugin;
 
-/** The learner's curves, as a viewer of lcm-spy, which finds this class by itself. */
+/** The window of the learner as a viewer of lcm-spy, which finds this class by itself. */
 public final class LearnerPlugin implements SpyPlugin {
   @Override
   public boolean canHandle(long fingerprint) {
@@ -16,6 +16,6 @@ public final class LearnerPlugin implements SpyPlugin {
 
   @Override
   public Action getAction(JDesktopPane desktop, ChannelData channel) {
-    return new WindowAction(Windows.LEARNER, channel);
+    return Windows.LEARNER.action(channel);
   }
 }

@@ -8,10 +8,10 @@ import java.awt.GridLayout;
 import java.util.List;
 import javax.swing.JPanel;
 
-/** A run's learner: loss, AoI, gap to the optimum and rates over the run. On the event thread. */
+/** Shows a run's learner: loss, AoI, gap to the optimum and rates. Used on the event thread. */
 final class LearnerWindow extends Window {
   private static final int PERIOD_MS = 200;
-  private static final double POINTS_A_RUN = 2000; // of a curve; more can't be told apart
+  private static final double POINTS_A_RUN = 2000; // of a curve; more would not be visible
 
   private final Curves loss =
       new Curves("Loss: mean squared temporal-difference error", "training episodes", "loss");
@@ -59,7 +59,7 @@ final class LearnerWindow extends Window {
       return;
     }
     if (hearing == RunFollower.Hearing.NEW || (last != null && status.episodes < last.episodes)) {
-      begin(status); // a new run, or one that goes on from a checkpoint
+      begin(status); // a new run, or one that was resumed from a checkpoint
     }
     boolean justProved = last != null && last.optimum_proved == 0 && status.optimum_proved != 0;
     last = status;
@@ -81,7 +81,7 @@ final class LearnerWindow extends Window {
     add(bestTrace, status.best_average_aoi, status);
     boolean proved = status.optimum_proved != 0;
     if (proved && optimumTrace.isEmpty() && Double.isFinite(status.lower_bound_average_aoi)) {
-      optimumTrace.addPoint(0, status.lower_bound_average_aoi); // it is that of the whole run
+      optimumTrace.addPoint(0, status.lower_bound_average_aoi); // the line covers the whole run
     }
     add(proved ? optimumTrace : boundTrace, status.lower_bound_average_aoi, status);
     add(gapTrace, status.gap_percent, status);
@@ -90,7 +90,7 @@ final class LearnerWindow extends Window {
   }
 
   private static void add(ITrace2D trace, double value, learner_status_t status) {
-    if (Math.abs(value) < 1e12) { // not a number: there is none yet
+    if (Math.abs(value) < 1e12) { // false for NaN: there is no value yet
       trace.addPoint(status.episodes, value);
     }
   }

@@ -2,11 +2,11 @@ package fresco.spy;
 
 import fresco.flight_t;
 
-/** The flight that `fresco fly` shows, from flight_t messages. On the event thread. */
+/** Joins flight_t messages to the flight that `fresco fly` shows. Used on the event thread. */
 final class LiveFlights {
   private Flight flight;
 
-  /** The flight that the message belongs to, its slot added; null where it is of no use. */
+  /** Adds the message's slot to its flight and returns that; null if the message is not usable. */
   Flight add(flight_t message) {
     if (message.sensor_count < 1 || message.slot < 1 || message.slot > Fields.MAXIMUM_SLOTS) {
       return null;

@@ -13,8 +13,8 @@ import javax.swing.UIManager;
 import lcm.spy.Spy;
 
 /**
- * Starts lcm-spy with Fresco's types and windows: `fresco spy` runs it. Arguments, all of them: the LCM URL,
- * the channels' prefix, the windows to open (comma-separated, may be empty), and whether to print the table.
+ * Starts lcm-spy with Fresco's types and windows. `fresco spy` runs it with four arguments: the LCM URL, the
+ * channels' prefix, the windows to open (comma-separated, may be empty), and whether to print the table.
  */
 public final class Main {
   private static final int FAILED = 1;

@@ -8,18 +8,18 @@ import lcm.lcm.LCMDataInputStream;
 import lcm.lcm.LCMEncodable;
 
 /**
- * Decodes one of Fresco's messages, guarded as msgs/wire.h does it: LCM's decoders allocate whatever a count
- * or the length of a text says, so both are looked at before. Immutable; any thread.
+ * Decodes messages of one type, as safely as msgs/wire.h: LCM's decoders allocate as much as a count or the
+ * length of a text says, so both are checked before. Immutable; any thread may use it.
  */
 final class MessageType<M extends LCMEncodable> {
-  /** LCM's decoder of a type: its constructor from a stream. */
+  /** LCM's decoder of a type: the constructor that takes a stream. */
   interface Decoder<M> {
     M decode(DataInput stream) throws IOException;
   }
 
   private static final int LARGEST_MESSAGE_BYTES = 1350;
   private static final int CRC_BYTES = 4;
-  private static final int TAG_BYTES = 32; // behind the CRC where the run has a key file
+  private static final int TAG_BYTES = 32; // behind the CRC if the run has a key file
   private static final int FIRST_COUNT = 8 + 3 * 8; // behind fingerprint, utime, run_id, config_hash
 
   private final Decoder<M> decoder;
@@ -28,8 +28,8 @@ final class MessageType<M extends LCMEncodable> {
   private final int[] countMaxima;
 
   /**
-   * @param firstText where the first text begins, in the encoding
-   * @param texts how many texts it has, one behind the other
+   * @param firstText position of the first text in the encoded message
+   * @param texts number of texts, one after the other
    * @param countMaxima the largest allowed value of each count, in the order of the fields
    */
   MessageType(Decoder<M> decoder, int firstText, int texts, int... countMaxima) {
@@ -39,9 +39,7 @@ final class MessageType<M extends LCMEncodable> {
     this.countMaxima = countMaxima;
   }
 
-  /**
-   * The message, or null where it is damaged, of another type, or no sender of Fresco's would have made it.
-   */
+  /** Returns the message; null if it is damaged, of another type, or beyond the limits of its type. */
   M decode(LCMDataInputStream stream) {
     try {
       byte[] bytes = new byte[Math.min(stream.available(), LARGEST_MESSAGE_BYTES + 1)];

@@ -4,7 +4,7 @@ import fresco.order_t;
 import fresco.orders_t;
 import java.util.Map;
 
-/** What the orders heard of last say of their episodes. On the event thread. */
+/** Remembers the latest orders, and describes their episodes. Used on the event thread. */
 final class Orders {
   private static final int REMEMBERED = 1024;
   private static final byte EVALUATE = 1;
@@ -24,7 +24,7 @@ final class Orders {
     return order != null && order.kind == EVALUATE;
   }
 
-  /** "training episode, epsilon 0.12, network 56". */
+  /** Returns for example "training, epsilon 0.120, network 56". */
   String describe(long runId, long index) {
     order_t order = orders.get(new Key(runId, index));
     if (order == null) {

@@ -4,7 +4,7 @@ import java.awt.BasicStroke;
 import java.awt.Color;
 import java.awt.Stroke;
 
-/** The colours of all windows; those of the report's page. */
+/** The colours of all windows. They are those of the report page. */
 final class Palette {
   static final Color PAPER = new Color(0xf6f7f8);
   static final Color SURFACE = Color.WHITE;
@@ -17,21 +17,21 @@ final class Palette {
 
   private static final int[] VIRIDIS = {
       0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
-  // Okabe and Ito: told apart also by the colour-blind.
+  // By Okabe and Ito: people with any kind of colour vision can distinguish them.
   private static final int[] SERIES = {
       0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x5b4a8a, 0x8c6d31};
   static final int SERIES_COLOURS = SERIES.length;
 
   private Palette() {}
 
-  /** Viridis, from 0 (dark) to 1 (yellow). */
+  /** Returns a colour of Viridis, from 0 (dark) to 1 (yellow). */
   static Color viridis(double fraction) {
     double position = Math.min(Math.max(fraction, 0), 1) * (VIRIDIS.length - 1);
     int lower = Math.min((int) position, VIRIDIS.length - 2);
     return between(new Color(VIRIDIS[lower]), new Color(VIRIDIS[lower + 1]), position - lower);
   }
 
-  /** A share of the way from one colour to the other. */
+  /** Returns a mixture: share 0 is the first colour, 1 the second. */
   static Color between(Color from, Color to, double share) {
     return new Color((int) Math.round(from.getRed() + (to.getRed() - from.getRed()) * share),
         (int) Math.round(from.getGreen() + (to.getGreen() - from.getGreen()) * share),
@@ -44,7 +44,7 @@ final class Palette {
     return new Color(colour.getRed(), colour.getGreen(), colour.getBlue(), alpha);
   }
 
-  /** Black or white, whichever is read better on the colour. */
+  /** Returns black or white, whichever is more legible on the colour. */
   static Color inkOn(Color colour) {
     double brightness = 0.299 * colour.getRed() + 0.587 * colour.getGreen() + 0.114 * colour.getBlue();
     return brightness > 140 ? INK : Color.WHITE;

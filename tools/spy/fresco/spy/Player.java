@@ -1,12 +1,12 @@
 package fresco.spy;
 
 /**
- * Which flight is shown, and how far it has come. Episodes of a run arrive by the dozen a second: one is
- * shown from its start to its end at a pace that can be followed, then the newest whole one. A live flight is
- * shown as it arrives, and before episodes. On the event thread.
+ * Decides which flight is shown, and how much of it. Dozens of episodes arrive each second. One is shown from
+ * start to end at a pace that people can follow, then the newest whole one. A live flight is shown while it
+ * arrives, and has precedence over episodes. Used on the event thread.
  */
 final class Player {
-  /** What is shown. */
+  /** Which flights are shown. */
   enum Choice {
     NEWEST("newest flight"),
     EVALUATIONS("greedy evaluations"),
@@ -23,7 +23,7 @@ final class Player {
   }
 
   private static final double HOLD_S = 1.5; // at the end of an episode
-  private static final double LIVE_S = 5; // a live flight that is silent for so long gives way
+  private static final double LIVE_S = 5; // after so much silence, a live flight gives way to episodes
   private static final double CATCH_UP_S = 0.3;
 
   private Choice choice = Choice.NEWEST;
@@ -40,25 +40,25 @@ final class Player {
 
   double position() { return position; }
 
-  /** Steps that have begun, at least one. */
+  /** Returns the number of steps that have begun, at least one. */
   int shownSteps() { return Math.min(flight.steps.size(), (int) position + 1); }
 
   void choose(Choice wanted) {
     choice = wanted;
-    heldS = HOLD_S; // the next one may come at once
+    heldS = HOLD_S; // the next one may be shown at once
   }
 
   void setSlotsPerS(double slots) { slotsPerS = slots; }
 
   void setPaused(boolean stop) { paused = stop; }
 
-  /** A whole episode. */
+  /** Takes a whole episode. */
   void offer(Flight episode, boolean evaluation) {
     newest = episode;
     newestEvaluation = evaluation ? episode : newestEvaluation;
   }
 
-  /** A live flight that has come a slot further. */
+  /** Takes a live flight that has got a further slot. */
   void follow(Flight live) {
     if (choice == Choice.EVALUATIONS || paused) {
       return;

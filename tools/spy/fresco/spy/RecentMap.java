@@ -4,8 +4,8 @@ import java.util.LinkedHashMap;
 import java.util.Map;
 
 /**
- * A map that forgets the entry used longest ago where it has too many: nothing from a network may fill
- * memory.
+ * A map that drops the least recently used entry if it has too many, so that messages from a network can't
+ * fill the memory.
  */
 final class RecentMap<K, V> extends LinkedHashMap<K, V> {
   private static final long serialVersionUID = 1;

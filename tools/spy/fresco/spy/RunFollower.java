@@ -3,13 +3,13 @@ package fresco.spy;
 import java.util.function.LongSupplier;
 
 /**
- * Which run a window shows where there may be another on the same channels: the first heard of, until it has
- * been silent for a while. On the event thread.
+ * Decides which run a window shows if there are several on its channels: the first one, until it has been
+ * silent for a while. Used on the event thread.
  */
 final class RunFollower {
   private static final long SILENT_NS = 3_000_000_000L;
 
-  /** Whether a message is of the run that is shown, and whether it is the first of it. */
+  /** A message is of the run that is shown, the first one of a run shown from now on, or of another run. */
   enum Hearing { SAME, NEW, OTHER }
 
   private final LongSupplier clockNs;
@@ -34,6 +34,6 @@ final class RunFollower {
     return same ? Hearing.SAME : Hearing.NEW;
   }
 
-  /** Seconds since the run was heard of. */
+  /** Returns the seconds since the run's last message. */
   double silentS() { return heard ? (clockNs.getAsLong() - lastNs) * 1e-9 : 0; }
 }

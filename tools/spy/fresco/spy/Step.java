@@ -1,7 +1,7 @@
 package fresco.spy;
 
 /**
- * One slot of a flight: the state at its beginning and what is done in it. Immutable (nobody writes to aoi).
+ * One slot of a flight: the state at its beginning, and the action in it. Immutable (nobody writes to aoi).
  *
  * @param slot 1, 2, ..
  * @param aoi age of each sensor's data, slots
@@ -9,7 +9,7 @@ package fresco.spy;
  * @param scheduled 0 none, 1 .. N the sensor that sends its data
  * @param timeMargin slots beyond the distance to the stop
  * @param energyMarginJ joules beyond the flight to the stop
- * @param remainingEnergyJ on board; NaN where it is not told
+ * @param remainingEnergyJ on board; NaN if it is not known
  */
 record Step(int slot, int column, int row, short[] aoi, int move, int scheduled, int timeMargin,
     double energyMarginJ, double remainingEnergyJ) {
@@ -19,7 +19,7 @@ record Step(int slot, int column, int row, short[] aoi, int move, int scheduled,
     return move >= 0 && move < MOVES.length ? MOVES[move] : "?";
   }
 
-  /** The largest AoI, at least 1. */
+  /** Returns the largest AoI, at least 1. */
   int oldest() {
     int oldest = 1;
     for (short age : aoi) {

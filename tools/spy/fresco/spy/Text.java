@@ -6,7 +6,7 @@ import java.awt.Shape;
 import java.awt.geom.AffineTransform;
 import java.util.Locale;
 
-/** Texts on drawings, and numbers as texts. */
+/** Draws texts, and turns numbers into texts. */
 final class Text {
   private Text() {}
 
@@ -18,7 +18,7 @@ final class Text {
     g.drawString(text, (float) (x - g.getFontMetrics().stringWidth(text)), (float) baseline);
   }
 
-  /** With a white edge, to be read on anything. */
+  /** Draws with a white edge, which is legible on anything. */
   static void haloed(Graphics2D g, String text, double x, double baseline, Color colour) {
     Shape outline = g.getFont().createGlyphVector(g.getFontRenderContext(), text).getOutline();
     Shape placed = AffineTransform.getTranslateInstance(x, baseline).createTransformedShape(outline);
@@ -29,13 +29,13 @@ final class Text {
     g.fill(placed);
   }
 
-  /** Without a fraction where it has none. */
+  /** Returns a whole number without a fraction, any other with four digits. */
   static String number(double value) {
     return value == Math.rint(value) ? String.format(Locale.ROOT, "%.0f", value)
                                      : String.format(Locale.ROOT, "%.4g", value);
   }
 
-  /** "-" where it is not known. */
+  /** Returns "-" if the value is not finite. */
   static String orDash(String format, double value) {
     return Double.isFinite(value) ? String.format(Locale.ROOT, format, value) : "-";
   }

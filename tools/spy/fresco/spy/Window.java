@@ -9,8 +9,8 @@ import javax.swing.JFrame;
 import javax.swing.Timer;
 
 /**
- * A window that shows what arrives on a run's channels: it takes the messages out of its inbox and is painted
- * again some times a second, until it is closed. On the event thread.
+ * A window that shows what arrives on a run's channels. Some times a second, it handles the messages of its
+ * inbox and is painted again, until it is closed. Used on the event thread.
  */
 abstract class Window {
   private final JFrame frame = new JFrame();
@@ -28,7 +28,7 @@ abstract class Window {
     }
   }
 
-  /** Shows the window and begins. */
+  /** Shows the window and starts its timer. */
   void open(String title, JComponent content, Dimension size) {
     content.setBackground(Palette.PAPER);
     frame.setTitle(title);
@@ -56,9 +56,9 @@ abstract class Window {
     update(seconds);
   }
 
-  /** So many seconds after the last time; messages have been handled. */
+  /** Called after messages were handled, so many seconds after the last call. */
   abstract void update(double seconds);
 
-  /** The window was closed. */
+  /** Called when the window was closed. */
   void closed() {}
 }

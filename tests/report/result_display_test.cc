@@ -1,0 +1,140 @@
+// What a person reads while a run is going and when it is over.
+#include "report/result_display.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace fresco {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+learner_status_t Status() {
+  learner_status_t status{};
+  status.episodes = 1500;
+  status.total_episodes = 6000;
+  status.updates = 12000;
+  status.epsilon = 0.16;
+  status.transitions_per_s = 4800;
+  status.updates_per_s = 600;
+  status.actors = 2;
+  status.average_aoi = status.best_average_aoi = status.lower_bound_average_aoi = status.gap_percent = kNan;
+  return status;
+}
+
+std::string Summary(const std::string& average_aoi, const std::string& optimum) {
+  return R"({"average_aoi": )" + average_aoi + R"(, "total_aoi": 2804, "arrived": true, )" + optimum +
+         R"(, "baselines": {"aoi": {"average_aoi": 17.5, "total_aoi": 3684, "arrived": true},
+             "distance": {"average_aoi": 17.0, "total_aoi": 3589, "arrived": false}}})";
+}
+
+constexpr char kProved[] =
+    R"("optimum_search": "proved", "optimal_average_aoi": 12.5, "optimal_total_aoi": 2625,
+       "best_found_average_aoi": 12.5, "best_found_total_aoi": 2625, "lower_bound_average_aoi": 12.5)";
+constexpr char kBounded[] =
+    R"("optimum_search": "limit", "optimal_average_aoi": null, "optimal_total_aoi": null,
+       "best_found_average_aoi": 12.75, "best_found_total_aoi": 2680, "lower_bound_average_aoi": 10)";
+constexpr char kUnknown[] =
+    R"("optimum_search": "off", "optimal_average_aoi": null, "optimal_total_aoi": null,
+       "best_found_average_aoi": null, "best_found_total_aoi": null, "lower_bound_average_aoi": null)";
+
+TEST(ProgressLine, SaysHowFarTheRunIsAndWhoWaits) {
+  learner_status_t status = Status();
+  EXPECT_EQ(
+      ProgressLine(status),
+      " 25% | 1500 of 6000 episodes | 12000 updates | epsilon 0.160 | greedy AoI - | 4800 transitions/s | "
+      "600 updates/s | 2 actors | actors wait for the learner");
+  status.waiting_for = "an actor to join";
+  EXPECT_NE(ProgressLine(status).find("learner waits for an actor to join"), std::string::npos);
+}
+
+TEST(ProgressLine, BeginsWithWhatIsWaitedForAfterTheTraining) {
+  learner_status_t status = Status();
+  status.episodes = status.total_episodes;
+  status.waiting_for = "the proof of the exact optimum: at most 40 s more of processor time";
+  EXPECT_EQ(
+      ProgressLine(status).find(
+          "trained, waits for the proof of the exact optimum: at most 40 s more of processor time | 6000 "),
+      0u);
+}
+
+TEST(ProgressLine, BeginsWithAWarning) {
+  learner_status_t status = Status();
+  status.warning = "the last checkpoint could not be written";
+  EXPECT_EQ(ProgressLine(status).find("WARNING: the last checkpoint could not be written |  25% | 1500 of"),
+            0u);
+}
+
+TEST(ProgressLine, ShowsTheGapOnceTheOptimumIsProvedAndABoundBefore) {
+  learner_status_t status = Status();
+  status.average_aoi = 14;
+  status.best_average_aoi = 13.75;
+  status.arrived = 1;
+  EXPECT_NE(ProgressLine(status).find("greedy AoI 14.000 |"), std::string::npos);
+  status.lower_bound_average_aoi = 1.25;
+  EXPECT_NE(ProgressLine(status).find("best 13.750 (optimum not proved, at least 1.250) |"),
+            std::string::npos);
+  status.lower_bound_average_aoi = 12.5;
+  status.gap_percent = 10;
+  status.optimum_proved = 1;
+  EXPECT_NE(ProgressLine(status).find("best 13.750 (10.00 % over the optimum)"), std::string::npos);
+  status.arrived = 0;
+  EXPECT_NE(ProgressLine(status).find("14.000 (not arrived)"), std::string::npos);
+}
+
+TEST(PolicyRows, HoldEveryPolicyAgainstTheOptimum) {
+  const auto rows = PolicyRows(Summary("13", kProved));
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0][3], "gap");
+  EXPECT_EQ(rows[1], (std::vector<std::string>{"this run (DQN)", "13.000", "2804", "4.00 %", "yes"}));
+  EXPECT_EQ(rows[2][3], "40.00 %");
+  EXPECT_EQ(rows[3], (std::vector<std::string>{"distance-based", "17.000", "3589", "-", "NO"}));
+  EXPECT_EQ(rows[4], (std::vector<std::string>{"exact optimum", "12.500", "2625", "0.00 %", "yes"}));
+}
+
+TEST(PolicyRows, HaveNoGapAndNoOptimumIfThatIsNotProved) {
+  const auto rows = PolicyRows(Summary("13", kBounded));
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0][3], "gap");
+  EXPECT_EQ(rows[1], (std::vector<std::string>{"this run (DQN)", "13.000", "2804", "not proved", "yes"}));
+  EXPECT_EQ(rows[2][3], "not proved");
+  EXPECT_EQ(rows[4],
+            (std::vector<std::string>{"best flight of the search", "12.750", "2680", "not proved", "yes"}));
+}
+
+TEST(OptimumNote, SaysInWordsWhatABoundIsAndWhyThereIsNoMore) {
+  EXPECT_EQ(OptimumNote(Summary("13", kBounded)),
+            "The exact optimum is not proved: the search reached run.optimum_limit_s or "
+            "run.optimum_memory_mb. No flight has an average AoI below 10.000; this run lies above the "
+            "optimum by at most 30.00 %, which is a bound and not the gap.");
+  std::string stopped = Summary("13", kBounded);
+  stopped.replace(stopped.find("limit"), 5, "stopped");
+  EXPECT_NE(OptimumNote(stopped).find("the search was stopped."), std::string::npos);
+  EXPECT_EQ(OptimumNote(Summary("13", kProved)), "");
+  EXPECT_EQ(OptimumNote(Summary("null", kUnknown)), "");
+  std::string failed = Summary("null", kUnknown);
+  failed.replace(failed.find("off"), 3, "failed");
+  EXPECT_NE(OptimumNote(failed).find("failed"), std::string::npos);
+}
+
+TEST(PolicyRows, LeaveOutWhatIsNotKnown) {
+  const auto rows = PolicyRows(Summary("null", kUnknown));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1][4], "not evaluated");
+  EXPECT_EQ(rows[2][3], "-");
+}
+
+TEST(ResultTable, HasALineForEveryRow) {
+  const std::string table = ResultTable(Summary("13", kProved));
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
+  EXPECT_NE(table.find("exact optimum"), std::string::npos);
+  const std::string unproved = ResultTable(Summary("13", kBounded));
+  EXPECT_EQ(std::count(unproved.begin(), unproved.end(), '\n'), 6);
+  EXPECT_EQ(unproved.find("exact optimum  "), std::string::npos);
+  EXPECT_NE(unproved.find("The exact optimum is not proved"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fresco
