@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "core/csv.h"
 #include "msgs/message_decoder.h"
 #include "msgs/wire.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/coverage.h"
 #include "logs/merged_event_logs.h"
 #include "msgs/message_decoder.h"

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
 #include "msgs/proto/options.pb.h"
 
 namespace fresco {

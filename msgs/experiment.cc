@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/atomic_file.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "msgs/channels.h"
 #include "msgs/config_reflection.h"
 #include "msgs/wire.h"

@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "bus/authenticated_bus.h"
-#include "core/big_endian.h"
+#include "core/bytes.h"
 
 namespace fresco {
 namespace {

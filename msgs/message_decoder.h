@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/big_endian.h"
+#include "core/bytes.h"
 #include "msgs/wire.h"
 
 namespace fresco {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/authentication_key.h"
+#include "bus/authenticated_bus.h"
 #include "msgs/experiment.h"
 #include "soak/fault_injector.h"
 #include "soak/fault_plan.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/command_line.h"
 #include "core/installation.h"
 #include "core/live_line.h"
@@ -15,7 +15,7 @@
 #include "processes/training_run.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
-#include "storage/new_run_folder.h"
+#include "storage/run_folder.h"
 #include "storage/summary.h"
 #include "tools/subcommands.h"
 

@@ -43,8 +43,8 @@ void Trainer::Resume(const TrainingState& state) {
   dqn_.Restore(state.current, state.target, state.adam);
   RefillReplay(state);
   for (const VersionState& version : state.versions) {
-    versions_[{version.kind, version.version}] = version;
-    output_.version(version.kind, version.version, version.parameters);
+    versions_[version.version] = version;
+    output_.version(version.version, version.parameters);
   }
   for (const OrderInFlight& order : state.orders) {
     orders_.push_back(order);
@@ -55,9 +55,9 @@ void Trainer::Resume(const TrainingState& state) {
 
 void Trainer::CheckState(const TrainingState& state) const {
   const int64_t parameters = dqn_.current().size();
-  const auto has = [&](NetworkKind kind, int32_t version) {
+  const auto has = [&](NetworkVersion version) {
     return std::any_of(state.versions.begin(), state.versions.end(), [&](const VersionState& entry) {
-      return entry.kind == kind && entry.version == version && entry.parameters->size() == parameters;
+      return entry.version == version && entry.parameters->size() == parameters;
     });
   };
   for (const Vector* vector :
@@ -65,16 +65,16 @@ void Trainer::CheckState(const TrainingState& state) const {
     Expect(vector->size() == parameters,
            fmt::format("expected {} parameters, found {}", parameters, vector->size()));
   }
-  Expect(has(NetworkKind::kCurrent, state.progress.current_version) &&
-             has(NetworkKind::kTarget, state.progress.target_version),
+  Expect(has({NetworkKind::kCurrent, state.progress.current_version}) &&
+             has({NetworkKind::kTarget, state.progress.target_version}),
          "it lacks the newest version of a network");
   int64_t index = state.progress.committed_orders;
   for (const OrderInFlight& entry : state.orders) {
     const Order& order = entry.order;
     Expect(order.index == index, fmt::format("expected order {}, found {}", index, order.index));
-    Expect(
-        has(NetworkKind::kCurrent, order.current_version) && has(NetworkKind::kTarget, order.target_version),
-        fmt::format("it lacks a network version that order {} names", index));
+    const std::array<NetworkVersion, 2> versions = VersionsOf(order);
+    Expect(std::all_of(versions.begin(), versions.end(), has),
+           fmt::format("it lacks a network version that order {} names", index));
     ++index;
   }
   CheckProgress(state);

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "msgs/experiment.h"
 #include "tests/msgs/usage_error.h"
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "report/result_display.h"
 #include "tests/worlds/test_scenarios.h"

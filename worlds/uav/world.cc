@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "core/check.h"
 #include "core/error.h"
 #include "worlds/uav/physics.h"
 
