@@ -179,7 +179,7 @@ void Actor::SendAgain(Flown& flown) {
   if (now_us_ - flown.sent_us >= kResendPeriodUs) {
     flown.sent_us = now_us_;
     ++totals_.resent_episodes;
-    Send(flown.episode);
+    Send(flown.result);
   }
 }
 
@@ -221,17 +221,17 @@ bool Actor::Step(int64_t now_us) {
   LeaveSilentRun();
   if (session_ != nullptr) {
     StartFlights();
-    session_->flyer.Step([this](const Order& order, const Episode& episode) { Finish(order, episode); });
+    session_->flyer.Step([this](const Order& order, OrderResult& result) { Finish(order, result); });
   }
   SendStatusIfDue(now_us);
   return session_ != nullptr && !session_->flyer.Idle();
 }
 
-void Actor::Finish(const Order& order, const Episode& episode) {
-  Send(episode);
+void Actor::Finish(const Order& order, OrderResult& result) {
+  Send(result);
   ++totals_.episodes;
-  totals_.transitions += episode.transitions();
-  session_->flown.insert_or_assign(order.index, Flown{order, episode, now_us_});
+  totals_.transitions += result.episode.transitions();
+  session_->flown.insert_or_assign(order.index, Flown{order, std::move(result), now_us_});
 }
 
 /// Silence is what was listened to: a process that was stopped finds its messages waiting when it wakes.
@@ -263,8 +263,8 @@ void Actor::StartFlights() {
   session.store.SetWanted(std::move(wanted));
 }
 
-void Actor::Send(const Episode& episode) {
-  SplitEpisode(session_->world, episode, options_.actor_id, [this](const transitions_t& message) {
+void Actor::Send(const OrderResult& result) {
+  SplitResult(session_->world, result, options_.actor_id, [this](const transitions_t& message) {
     bus_.Publish(channels_.transitions, message, session_->identity);
   });
 }

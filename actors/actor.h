@@ -78,7 +78,7 @@ class Actor {
   /// A flown episode, to be sent again where its order is announced again.
   struct Flown {
     Order order;
-    Episode episode;
+    OrderResult result;
     int64_t sent_us = 0;
   };
 
@@ -107,9 +107,9 @@ class Actor {
   int64_t WindowEnd(int64_t committed) const;
   void KeepWindow(int64_t committed);
   void StartFlights();
-  void Finish(const Order& order, const Episode& episode);
+  void Finish(const Order& order, OrderResult& result);
   void SendAgain(Flown& flown);
-  void Send(const Episode& episode);
+  void Send(const OrderResult& result);
   void SendStatusIfDue(int64_t now_us);
   void LeaveSilentRun();
   void MeasureRate(int64_t now_us);

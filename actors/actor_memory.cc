@@ -14,7 +14,7 @@ MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
   const int64_t orders = MaximumOrdersInFlight(experiment.schedule().window());
   const VersionsInFlight versions = MostVersionsInFlight(experiment);
   const int64_t wanted = std::min(orders, versions.current) + std::min(orders, versions.target);
-  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + LongestEpisodeBytes(world);
+  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + LongestResultBytes(world);
   return {"actor",
           1,
           {{"run.environments_per_actor", "its environments",

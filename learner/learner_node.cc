@@ -119,10 +119,10 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
   if (!IsOurs(IdentityOf(message))) {
     return;
   }
-  if (!ToEpisodeRun(*world_, message, run_)) {
+  if (!FromWire(*world_, message, part_)) {
     return Reject(&BusCounters::rejected_malformed);
   }
-  switch (ledger_.Add(run_)) {
+  switch (ledger_.Add(part_)) {
     case Ledger::Arrival::kAccepted:
       return;
     case Ledger::Arrival::kDuplicate:
@@ -135,10 +135,10 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
     case Ledger::Arrival::kCompleted:
       break;
   }
-  roster_.Completed(run_.order_index, message.actor_id, clock_.now_us());
-  if (run_.order_index == ledger_.committed()) {
+  roster_.Completed(part_.order_index, message.actor_id, clock_.now_us());
+  if (part_.order_index == ledger_.committed()) {
     next_is_complete_.notify_one();
-  } else if (!ledger_.IsComplete(run_.order_index - 1)) {
+  } else if (!ledger_.IsComplete(part_.order_index - 1)) {
     ++counters_.reordered_episodes;
   }
 }

@@ -122,7 +122,7 @@ class LearnerNode {
 
   // The network thread's own.
   StarvationWarning starvation_warning_;
-  Episode run_;
+  OrderResult part_;
   int64_t next_run_us_ = 0;
   int64_t next_scenario_us_ = 0;
   int64_t next_orders_us_ = 0;

@@ -17,19 +17,19 @@ constexpr size_t kMaximumOpenEpisodes = 8192;
 
 }  // namespace
 
-std::optional<Episode> LoggedEpisodes::Assembly::Add(const transitions_t& message) {
-  if (!ToEpisodeRun(*world_, message, run_)) {
+std::optional<CommittedEpisode> LoggedEpisodes::Assembly::Add(const transitions_t& message) {
+  if (!FromWire(*world_, message, part_)) {
     return std::nullopt;
   }
-  auto [entry, is_new] = open_.try_emplace(run_.order_index, *world_, mask_options_);
+  auto [entry, is_new] = open_.try_emplace(part_.order_index, *world_, mask_options_);
   Ledger& ledger = entry->second;
   if (is_new) {
-    ledger.Write(Order{run_.order_index});
+    ledger.Write(Order{part_.order_index});
   }
-  if (ledger.Add(run_) == Ledger::Arrival::kCompleted) {
-    std::optional<CommittedEpisode> whole = ledger.TakeNext();
+  if (ledger.Add(part_) == Ledger::Arrival::kCompleted) {
+    std::optional<CommittedEpisode> complete = ledger.TakeNext();
     open_.erase(entry);
-    return whole ? std::optional(std::move(whole->episode)) : std::nullopt;
+    return complete;
   }
   if (open_.size() > kMaximumOpenEpisodes) {
     open_.erase(open_.begin());
@@ -115,8 +115,8 @@ Episode LoggedEpisodes::Take(int64_t order_index) {
     }
     if (message->DecodeAs(transitions_) && IsOurs(IdentityOf(transitions_)) &&
         transitions_.order_index >= order_index) {
-      if (auto episode = assembly_.Add(transitions_)) {
-        ahead_.try_emplace(episode->order_index, std::move(*episode));
+      if (auto complete = assembly_.Add(transitions_)) {
+        ahead_.try_emplace(complete->order.index, std::move(complete->episode));
       }
     }
   }

@@ -48,14 +48,14 @@ class LoggedEpisodes {
    public:
     Assembly(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
     /// Adds the transitions of a message. Returns the episode if it is complete now.
-    std::optional<Episode> Add(const transitions_t& message);
+    std::optional<CommittedEpisode> Add(const transitions_t& message);
     /// Drops the incomplete episodes of orders with a lower index.
     void Forget(int64_t below) { open_.erase(open_.begin(), open_.lower_bound(below)); }
 
    private:
     const World* world_;
     MaskOptions mask_options_;
-    Episode run_;
+    OrderResult part_;
     std::map<int64_t, Ledger> open_;  // incomplete episodes by order index, each in a ledger of its own
   };
 

@@ -7,7 +7,6 @@
 #include "core/check.h"
 #include "core/crc32c.h"
 #include "core/error.h"
-#include "training/episode_check.h"
 
 namespace fresco {
 
@@ -94,28 +93,27 @@ Episode Retraining::EpisodeOf(const PendingOrder& pending) {
     return WaitForFlight(pending);
   }
   ++counts_.recorded_episodes;
-  return use_ == Use::kSameRun ? episodes_->Take(pending.order.index) : NextExperience(pending.order.index);
+  return use_ == Use::kSameRun ? episodes_->Take(pending.order.index) : NextExperience();
 }
 
 /// Flies until the flight of this order, the first pending one, has ended.
 Episode Retraining::WaitForFlight(const PendingOrder& pending) {
   while (!pending.flown) {
-    flyer_.Step([this](const Order& order, const Episode& episode) {
-      const int64_t place = order.index - pending_.front().order.index;
-      pending_[static_cast<size_t>(place)].flown = episode;
+    flyer_.Step([this](const Order& order, OrderResult& result) {
+      const int64_t position = order.index - pending_.front().order.index;
+      pending_[static_cast<size_t>(position)].flown = std::move(result.episode);
     });
   }
   return *pending.flown;
 }
 
-/// Returns the next recorded training episode that this agent's masks allow, with the index of its order.
-Episode Retraining::NextExperience(int64_t order_index) {
+/// Returns the next recorded training episode that this agent's masks allow.
+Episode Retraining::NextExperience() {
   Episode episode;
   while (!experience_.empty()) {
     const Episode recorded = episodes_->Take(experience_.front());
     experience_.pop_front();
     if (FlyActions(*world_, experiment_.mask_options(), recorded.actions, episode)) {
-      episode.order_index = order_index;
       return episode;
     }
     ++counts_.left_out;

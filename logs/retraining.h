@@ -66,7 +66,7 @@ class Retraining {
   bool IsRecorded(const Order& order) const;
   Episode EpisodeOf(const PendingOrder& pending);
   Episode WaitForFlight(const PendingOrder& pending);
-  Episode NextExperience(int64_t order_index);
+  Episode NextExperience();
 
   Experiment experiment_;
   const World* world_;

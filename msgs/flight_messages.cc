@@ -19,19 +19,19 @@ void SetState(const World& world, const State& state, flight_t& message) {
 
 }  // namespace
 
-std::vector<flight_t> FlightMessages(const World& world, const Flight& flight, const std::string& policy) {
+std::vector<flight_t> FlightMessages(const World& world, const Episode& flight, const std::string& policy) {
   std::vector<flight_t> messages;
-  Environment environment(world);  // flies the actions again: a Flight does not hold rewards and margins
   flight_t message{};
   message.policy = policy.substr(0, kMaximumPolicyBytes);
-  for (const FlightSlot& slot : flight.slots) {
-    SetState(world, environment.state(), message);
-    message.remaining_energy_j = static_cast<float>(environment.remaining_energy_j());
-    message.outcome = static_cast<int8_t>(environment.outcome());
-    message.move = static_cast<int8_t>(slot.action.move);
-    message.scheduled = static_cast<int16_t>(slot.action.schedule);
-    const bool flying = environment.outcome() == Outcome::kFlying;
-    message.reward = flying ? static_cast<float>(environment.Step(slot.action).reward) : 0.0f;
+  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+    const bool last = slot == flight.actions.size();
+    const Action action = ActionIn(world, flight, slot);
+    SetState(world, flight.states[slot], message);
+    message.remaining_energy_j = static_cast<float>(EnergyIn(world, flight, slot));
+    message.outcome = static_cast<int8_t>(last ? flight.outcome : Outcome::kFlying);
+    message.move = static_cast<int8_t>(action.move);
+    message.scheduled = static_cast<int16_t>(action.schedule);
+    message.reward = last ? 0.0f : flight.rewards[slot];
     messages.push_back(message);
   }
   return messages;

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "msgs/wire.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/episode.h"
 
 namespace fresco {
 
 /// Returns one message for each slot of the flight and one for its final state. The caller fills in `utime`,
 /// `run_id`, `config_hash` and `flight`. Policy names longer than kMaximumPolicyBytes are cut.
-std::vector<flight_t> FlightMessages(const World& world, const Flight& flight, const std::string& policy);
+std::vector<flight_t> FlightMessages(const World& world, const Episode& flight, const std::string& policy);
 
 }  // namespace fresco

@@ -1,16 +1,20 @@
-// An order tells an actor which episode to fly. It holds every input that decides the episode's transitions.
-// Plain values; pure functions, which any thread may call.
+// An order tells an actor which episode to fly; a result brings back what was flown for it. Both travel in
+// messages that fit one Ethernet frame each. Plain values; pure functions, which any thread may call.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <vector>
 
-#include "fresco/order_t.hpp"
+#include "msgs/wire.h"
+#include "worlds/uav/episode.h"
 
 namespace fresco {
 
 /// A training episode explores and goes into the replay memory; an evaluation is greedy and does not.
 enum class OrderKind : int8_t { kTrain = 0, kEvaluate = 1 };
 
+/// Every input that decides the transitions of an episode.
 struct Order {
   int64_t index = 0;                   ///< position in the run's sequence of orders, 0 .. 2^32 - 1
   OrderKind kind = OrderKind::kTrain;  ///< train or evaluate
@@ -30,29 +34,34 @@ inline int64_t MaximumOrdersInFlight(int32_t window) {
 /// Which of the two networks is meant.
 enum class NetworkKind : int8_t { kCurrent = 0, kTarget = 1 };
 
+/// What was flown for an order: its episode, or consecutive transitions of it (one message holds only some).
+struct OrderResult {
+  int64_t order_index = 0;
+  int32_t first_transition = 0;  ///< 0 .. T - 2; of the order's episode
+  Episode episode;
+  std::vector<float> td_errors;  ///< temporal-difference error of each transition
+};
+
 /// The message for an order that `actor_id` (not 0) shall fly; `attempt` >= 0 counts how often the order was
 /// given out before.
-inline order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
-  order_t wire{};
-  wire.index = order.index;
-  wire.actor_id = actor_id;
-  wire.attempt = attempt;
-  wire.kind = static_cast<int8_t>(order.kind);
-  wire.epsilon = order.epsilon;
-  wire.seed = static_cast<int64_t>(order.seed);
-  wire.current_version = order.current_version;
-  wire.target_version = order.target_version;
-  return wire;
-}
+order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt);
 
 /// Reads an order from a message. Returns false if a value is out of range; `order` is then of no use.
-inline bool FromWire(const order_t& wire, Order& order) {
-  order = {wire.index,           static_cast<OrderKind>(wire.kind),
-           wire.epsilon,         static_cast<uint64_t>(wire.seed),
-           wire.current_version, wire.target_version};
-  return wire.index >= 0 && wire.index < (int64_t{1} << 32) && (wire.kind == 0 || wire.kind == 1) &&
-         wire.epsilon >= 0 && wire.epsilon <= 1 && wire.current_version >= 0 && wire.target_version >= 0 &&
-         wire.attempt >= 0;
-}
+bool FromWire(const order_t& message, Order& order);
+
+/// How many transitions fit one message for this many sensors; at least 1 for up to kMaximumSensors.
+int TransitionsPerMessage(int sensors);
+
+/// Splits a complete result into messages, and calls `send` with each, first transitions first. They have no
+/// run and no time yet (MessageBus::Publish).
+void SplitResult(const World& world, const OrderResult& result, int64_t actor_id,
+                 const std::function<void(const transitions_t&)>& send);
+
+/// Reads the part of a result that a message holds. Returns false if sizes, actions, cells or ages do not fit
+/// the world, or a value is not finite; `result` is then of no use.
+bool FromWire(const World& world, const transitions_t& message, OrderResult& result);
+
+/// The memory of the longest result in this world, the object itself included.
+int64_t LongestResultBytes(const World& world);
 
 }  // namespace fresco

@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "planner/label_search.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -28,7 +29,7 @@ class Planner {
   bool KeepGoing(const SearchProgress& progress) const;
   void BeginWithBaselines();
   void Search();
-  int64_t CostOf(const Flight& flight) const;
+  int64_t CostOf(const Episode& flight) const;
   void Take(const LabelSearchResult& result);
   void Conclude();
   double LowerBoundTotalAoi() const;
@@ -51,11 +52,11 @@ bool Planner::KeepGoing(const SearchProgress& progress) const {
                                                       AverageAoi(bound), AverageAoi(cost_)});
 }
 
-int64_t Planner::CostOf(const Flight& flight) const {
+int64_t Planner::CostOf(const Episode& flight) const {
   int64_t cost = 0;
-  for (const FlightSlot& slot : flight.slots) {
+  for (const State& state : flight.states) {
     for (size_t n = 0; n < problem_.weights().size(); ++n) {
-      cost += problem_.weights()[n] * slot.state.aoi[static_cast<size_t>(problem_.sensors()[n])];
+      cost += problem_.weights()[n] * state.aoi[static_cast<size_t>(problem_.sensors()[n])];
     }
   }
   return cost;
@@ -63,7 +64,7 @@ int64_t Planner::CostOf(const Flight& flight) const {
 
 void Planner::BeginWithBaselines() {
   for (const BaselineKind kind : {BaselineKind::kAoi, BaselineKind::kDistance}) {
-    Flight flight = FlyBaseline(world_, kind);
+    Episode flight = FlyBaseline(world_, kind);
     FRESCO_CHECK(flight.arrived());
     if (CostOf(flight) < cost_) {
       cost_ = CostOf(flight);

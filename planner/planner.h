@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 
@@ -32,7 +32,7 @@ struct PlannerOptions {
 };
 
 struct Plan {
-  Flight flight;  ///< the best flight found; it arrives
+  Episode flight;  ///< the best flight found; it arrives
 
   /// Whether the search is complete, so that no flight has a smaller average AoI (J of the paper). This is
   /// exact if the weights are multiples of a common fraction, as equal weights are. Otherwise the search uses

@@ -15,6 +15,7 @@
 #include "report/study_statistics.h"
 #include "storage/flown_policy.h"
 #include "storage/policy.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -223,24 +224,25 @@ class FigureWriter {
          "One greedy flight of every evaluated version of one run's network.");
     for (const ReportFlight& flight : field.flights()) {
       const std::string file = FlightFile(flight.name);
-      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), flight.flight);
+      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), field.world(), flight.flight);
       const std::string title = "Flight: " + flight.name;
       Draw(DrawFlightMap(title, field.world(), flight.flight), file, title,
            "The path's colour is the slot; a dot joined with a sensor is a collection.");
     }
   }
 
-  static void WriteFlightCsv(const Path& path, const Flight& flight) {
+  static void WriteFlightCsv(const Path& path, const World& world, const Episode& flight) {
     std::vector<std::string> header = {"slot", "column", "row", "move", "scheduled"};
-    for (size_t sensor = 1; sensor <= flight.slots.front().state.aoi.size(); ++sensor) {
+    for (size_t sensor = 1; sensor <= flight.states.front().aoi.size(); ++sensor) {
       header.push_back(fmt::format("aoi_{}", sensor));
     }
     std::vector<std::vector<CsvCell>> rows;
-    for (const FlightSlot& slot : flight.slots) {
-      std::vector<CsvCell> row = {int64_t{slot.state.slot}, int64_t{slot.state.cell.column},
-                                  int64_t{slot.state.cell.row}, MoveName(slot.action.move),
-                                  int64_t{slot.action.schedule}};
-      row.insert(row.end(), slot.state.aoi.begin(), slot.state.aoi.end());
+    for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+      const State& state = flight.states[slot];
+      const Action action = ActionIn(world, flight, slot);
+      std::vector<CsvCell> row = {int64_t{state.slot}, int64_t{state.cell.column}, int64_t{state.cell.row},
+                                  MoveName(action.move), int64_t{action.schedule}};
+      row.insert(row.end(), state.aoi.begin(), state.aoi.end());
       rows.push_back(std::move(row));
     }
     WriteCsv(path, header, rows);

@@ -63,23 +63,24 @@ std::string ColourNumber(const char* colour) {
 }
 
 /// The data of the path, a line for each slot: column, row, slot.
-std::string PathData(const World& world, const Flight& flight) {
+std::string PathData(const World& world, const Episode& flight) {
   std::string script = "$path << END\n";
-  for (const FlightSlot& slot : flight.slots) {
-    const Point point = Shifted(world, slot.state.cell, slot.state.slot);
-    script += fmt::format("{} {} {}\n", point.column, point.row, slot.state.slot);
+  for (const State& state : flight.states) {
+    const Point point = Shifted(world, state.cell, state.slot);
+    script += fmt::format("{} {} {}\n", point.column, point.row, state.slot);
   }
   return script + "END\n";
 }
 
 /// The data of the collections, a line each: column, row, columns and rows from there to the sensor, its
 /// colour.
-std::string CollectionData(const World& world, const Flight& flight) {
+std::string CollectionData(const World& world, const Episode& flight) {
   std::string script = "$collections << END\n";
-  for (const FlightSlot& slot : flight.slots) {
-    const int sensor = slot.action.schedule - 1;
-    if (sensor >= 0 && world.Covers(slot.state.cell, sensor)) {
-      const Point from = Shifted(world, slot.state.cell, slot.state.slot);
+  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+    const State& state = flight.states[slot];
+    const int sensor = ActionIn(world, flight, slot).schedule - 1;
+    if (sensor >= 0 && world.Covers(state.cell, sensor)) {
+      const Point from = Shifted(world, state.cell, state.slot);
       const Point to = SensorPoint(world, sensor);
       script += fmt::format("{} {} {} {} {}\n", from.column, from.row, to.column - from.column,
                             to.row - from.row, ColourNumber(ColoursOf(sensor).disc));
@@ -183,8 +184,8 @@ Legend MapLegend() {
 
 }  // namespace
 
-Picture DrawFlightMap(const std::string& title, const World& world, const Flight& flight) {
-  FRESCO_CHECK(!flight.slots.empty());
+Picture DrawFlightMap(const std::string& title, const World& world, const Episode& flight) {
+  FRESCO_CHECK(!flight.states.empty());
   const Legend legend = MapLegend();
   const Frame frame{
       .title = title, .x_label = "column", .y_label = "row", .right_label = "slot", .right_px = kColourBarPx};

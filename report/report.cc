@@ -96,11 +96,11 @@ OrderedJson WorldJson(const World& world) {
 
 /// Returns what `fresco evaluate --format json` prints, and adds for each slot whether the scheduled sensor
 /// is collected, that is, covered.
-OrderedJson FlightDataJson(const World& world, const Flight& flight) {
+OrderedJson FlightDataJson(const World& world, const Episode& flight) {
   OrderedJson json = OrderedJson::parse(FlightJson(world, flight, ""));
-  for (size_t slot = 0; slot < flight.slots.size(); ++slot) {
-    const Cell cell = flight.slots[slot].state.cell;
-    const int scheduled = flight.slots[slot].action.schedule;
+  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+    const Cell cell = flight.states[slot].cell;
+    const int scheduled = ActionIn(world, flight, slot).schedule;
     json["flight"][slot]["collected"] = scheduled > 0 && world.Covers(cell, scheduled - 1);
   }
   return json;

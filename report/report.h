@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "worlds/uav/flight.h"
+#include "worlds/uav/episode.h"
 
 namespace fresco {
 
@@ -26,7 +26,7 @@ struct ReportTable {
 
 struct ReportFlight {
   std::string name;  ///< its name on the page: "this run (DQN)", "exact optimum"
-  Flight flight;
+  Episode flight;
 };
 
 /// All texts are plain text; the page shows every character of them as it is. Empty members are left out of

@@ -8,7 +8,7 @@
 
 #include "storage/flown_policy.h"
 #include "storage/optimum_search.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 namespace {
@@ -127,30 +127,32 @@ std::string ResultTable(const std::string& summary_json) {
   return note.empty() ? table : table + note + "\n";
 }
 
-std::string FlightJson(const World& world, const Flight& flight, const std::string& policy,
+std::string FlightJson(const World& world, const Episode& flight, const std::string& policy,
                        const std::optional<Plan>& plan) {
   const AoiFigures figures = Figures(world, flight);
   OrderedJson json = {{"policy", policy},
                       {"arrived", flight.arrived()},
                       {"outcome", OutcomeName(flight.outcome)},
-                      {"slots", flight.slots.size()},
+                      {"slots", flight.states.size()},
                       {"total_aoi", figures.total_aoi},
                       {"average_aoi", figures.average_aoi},
                       {"sum_aoi", figures.sum_aoi},
-                      {"residual_energy_j", flight.residual_energy_j}};
+                      {"residual_energy_j", ResidualEnergy(world, flight)}};
   if (plan) {
     json["optimal"] = plan->optimal;
     json["lower_bound_total_aoi"] = plan->lower_bound_total_aoi;
     json["lower_bound_average_aoi"] = plan->lower_bound_average_aoi;
   }
   OrderedJson& slots = json["flight"] = OrderedJson::array();
-  for (const FlightSlot& slot : flight.slots) {
-    slots.push_back({{"slot", slot.state.slot},
-                     {"column", slot.state.cell.column},
-                     {"row", slot.state.cell.row},
-                     {"move", MoveName(slot.action.move)},
-                     {"scheduled", slot.action.schedule},
-                     {"aoi", slot.state.aoi}});
+  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+    const State& state = flight.states[slot];
+    const Action action = ActionIn(world, flight, slot);
+    slots.push_back({{"slot", state.slot},
+                     {"column", state.cell.column},
+                     {"row", state.cell.row},
+                     {"move", MoveName(action.move)},
+                     {"scheduled", action.schedule},
+                     {"aoi", state.aoi}});
   }
   return json.dump(2);
 }

@@ -33,7 +33,7 @@ std::string ResultTable(const std::string& summary_json);
 /// and flight. The latter is a list of {slot, column, row, move, scheduled, aoi}, one for each slot, with the
 /// AoI at its beginning. If there is a plan, the object also has optimal, lower_bound_total_aoi and
 /// lower_bound_average_aoi.
-std::string FlightJson(const World& world, const Flight& flight, const std::string& policy,
+std::string FlightJson(const World& world, const Episode& flight, const std::string& policy,
                        const std::optional<Plan>& plan = std::nullopt);
 
 }  // namespace fresco

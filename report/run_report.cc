@@ -15,6 +15,7 @@
 #include "storage/flown_policy.h"
 #include "storage/network_file.h"
 #include "storage/policy.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -39,9 +40,13 @@ size_t ColumnOf(const std::vector<std::string>& header, const std::string& name,
   return static_cast<size_t>(found - header.begin());
 }
 
-Flight FlyActions(const World& world, const Json& actions) {
-  size_t next = 0;
-  return Fly(world, [&](const Environment&) { return world.ActionAt(actions.at(next++).get<int>()); });
+/// The best flight that the search found, from its actions in optimum.json.
+Episode FlightOfOptimum(const World& world, const Json& optimum, const Path& file) {
+  Episode flight;
+  if (!FlyActions(world, {}, optimum.at("actions").get<std::vector<int16_t>>(), flight)) {
+    throw Failure(file.string() + ": its actions are no flight of this run's scenario");
+  }
+  return flight;
 }
 
 }  // namespace
@@ -92,9 +97,10 @@ void FinishedRun::TakeFlights(const Path& folder) {
     flights_.push_back({"this run (DQN)", FlyNetwork(world_, experiment_, network)});
   }
   if (std::filesystem::exists(folder / "optimum.json")) {
-    const Json optimum = Json::parse(ReadFile(folder / "optimum.json"));
+    const Path file = folder / "optimum.json";
+    const Json optimum = Json::parse(ReadFile(file));
     flights_.push_back(
-        {FoundFlightName(optimum.at("optimal").get<bool>()), FlyActions(world_, optimum.at("actions"))});
+        {FoundFlightName(optimum.at("optimal").get<bool>()), FlightOfOptimum(world_, optimum, file)});
   }
   flights_.push_back({"AoI-based", FlyBaseline(world_, BaselineKind::kAoi)});
   flights_.push_back({"distance-based", FlyBaseline(world_, BaselineKind::kDistance)});

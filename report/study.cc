@@ -16,7 +16,7 @@
 #include "processes/training_run.h"
 #include "storage/checkpoint_folder.h"
 #include "storage/summary.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 namespace {

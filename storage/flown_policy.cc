@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "msgs/ready_experiments.h"
 #include "msgs/settings.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -80,7 +81,7 @@ std::string FlightSummary(const FlownPolicy& flown, const std::string& policy) {
   const AoiFigures figures = Figures(flown.world, flown.flight);
   return fmt::format("{}: {}; average AoI {:.3f} slots, total AoI {}, {:.0f} J left",
                      FlightName(flown, policy), OutcomeName(flown.flight.outcome), figures.average_aoi,
-                     figures.total_aoi, flown.flight.residual_energy_j);
+                     figures.total_aoi, ResidualEnergy(flown.world, flown.flight));
 }
 
 }  // namespace fresco

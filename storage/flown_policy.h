@@ -39,7 +39,7 @@ struct FlownPolicy {
   explicit FlownPolicy(const Experiment& given) : experiment(given), world(given.scenario()) {}
   Experiment experiment;
   World world;
-  Flight flight;
+  Episode flight;
   std::optional<Plan> plan;  ///< set if the policy is "optimal"
 };
 

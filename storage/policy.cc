@@ -82,15 +82,13 @@ StoredNetwork ReadPolicy(const std::string& policy) {
   }
 }
 
-Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
+Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
   const size_t trained_for = network.experiment.scenario().sensors.size();
   if (trained_for != world.scenario().sensors.size()) {
     throw UsageError(fmt::format("--policy: the network was trained for {} sensors, the scenario has {}",
                                  trained_for, world.sensors()));
   }
-  const Episode episode = FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
-  size_t next = 0;
-  return Fly(world, [&](const Environment&) { return world.ActionAt(episode.actions[next++]); });
+  return FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
 }
 
 Plan PlanWithin(const World& world, const PlannerLimits& limits) {

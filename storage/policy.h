@@ -6,7 +6,7 @@
 
 #include "planner/planner.h"
 #include "storage/network_file.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 
@@ -28,7 +28,7 @@ StoredNetwork ReadPolicy(const std::string& policy);
 
 /// Flies one greedy episode of a network in `world`, with the masks of `experiment`. Throws UsageError if the
 /// network is for another number of sensors.
-Flight FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
+Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
 
 /// The limits of a search for the optimum.
 struct PlannerLimits {

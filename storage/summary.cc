@@ -7,6 +7,7 @@
 #include "core/crc32c.h"
 #include "core/identifier.h"
 #include "core/version.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 OrderedJson BaselineFigures(const World& world, BaselineKind kind) {
-  const Flight flight = FlyBaseline(world, kind);
+  const Episode flight = FlyBaseline(world, kind);
   const AoiFigures figures = Figures(world, flight);
   return {{"total_aoi", figures.total_aoi},
           {"average_aoi", figures.average_aoi},
@@ -76,10 +77,7 @@ std::string OptimumJson(const World& world, const Plan& plan) {
                       {"lower_bound_total_aoi", plan.lower_bound_total_aoi},
                       {"lower_bound_average_aoi", plan.lower_bound_average_aoi},
                       {"labels", plan.labels}};
-  OrderedJson& actions = json["actions"] = OrderedJson::array();
-  for (size_t slot = 0; slot + 1 < plan.flight.slots.size(); ++slot) {
-    actions.push_back(world.ActionIndex(plan.flight.slots[slot].action));
-  }
+  json["actions"] = plan.flight.actions;
   return json.dump();
 }
 

@@ -18,11 +18,12 @@ struct EvaluateOptions {
 
 void PrintText(const FlownPolicy& flown, const std::string& policy) {
   fmt::print("slot  cell      move   scheduled  AoI\n");
-  for (const FlightSlot& slot : flown.flight.slots) {
-    const std::string cell = fmt::format("({},{})", slot.state.cell.column, slot.state.cell.row);
-    fmt::print("{:>4}  {:<8}  {:<5}  {:>9}  {}\n", slot.state.slot, cell, MoveName(slot.action.move),
-               slot.action.schedule == 0 ? "-" : std::to_string(slot.action.schedule),
-               fmt::join(slot.state.aoi, " "));
+  for (size_t slot = 0; slot < flown.flight.states.size(); ++slot) {
+    const State& state = flown.flight.states[slot];
+    const Action action = ActionIn(flown.world, flown.flight, slot);
+    const std::string cell = fmt::format("({},{})", state.cell.column, state.cell.row);
+    fmt::print("{:>4}  {:<8}  {:<5}  {:>9}  {}\n", state.slot, cell, MoveName(action.move),
+               action.schedule == 0 ? "-" : std::to_string(action.schedule), fmt::join(state.aoi, " "));
   }
   fmt::print("\n{}\n", FlightSummary(flown, policy));
 }

@@ -39,16 +39,6 @@ int GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& m
 
 }  // namespace
 
-Flyer::Flight::Flight(const World& world, const Order& flown_order, SharedParameters current_parameters,
-                      SharedParameters target_parameters)
-    : order(flown_order),
-      current(std::move(current_parameters)),
-      target(std::move(target_parameters)),
-      environment(world),
-      mask(static_cast<size_t>(world.actions())) {
-  episode.order_index = order.index;
-}
-
 Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
     : world_(&world),
       network_input_(world, experiment.network_input_options()),
@@ -64,8 +54,8 @@ Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
 int64_t Flyer::BytesFor(const World& world, const Experiment& experiment, int capacity, int64_t flights) {
   constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
   const MlpShape shape = experiment.network_shape();
-  const int64_t of_flight = static_cast<int64_t>(sizeof(Flight)) + HeapBytes(world.actions()) +
-                            kGrowth * LongestEpisodeBytes(world);
+  const int64_t of_flight =
+      static_cast<int64_t>(sizeof(Flight)) + HeapBytes(world.actions()) + kGrowth * LongestResultBytes(world);
   return NetworkInput::BytesFor(world, experiment.network_input_options()) +
          2 * MlpWorkspace::BytesFor(shape, capacity, false) + flights * of_flight;
 }
@@ -85,14 +75,11 @@ std::vector<int64_t> Flyer::OrderIndices() const {
 
 void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
   FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
-  auto& flight =
-      flights_.emplace_back(std::make_unique<Flight>(*world_, order, std::move(current), std::move(target)));
-  flight->environment.Reset();
-  flight->environment.WriteMask(mask_options_, flight->mask);
-  flight->episode.states.push_back(flight->environment.state());
+  flights_.push_back(std::make_unique<Flight>(order, std::move(current), std::move(target),
+                                              EpisodeRecorder(*world_, mask_options_)));
 }
 
-void Flyer::Step(const std::function<void(const Order&, const Episode&)>& finished) {
+void Flyer::Step(const std::function<void(const Order&, OrderResult&)>& finished) {
   // Flights of the same two versions stand side by side; the order within a group has no influence.
   std::stable_sort(flights_.begin(), flights_.end(), [](const auto& a, const auto& b) {
     return std::pair(a->order.current_version, a->order.target_version) <
@@ -108,12 +95,14 @@ void Flyer::Step(const std::function<void(const Order&, const Episode&)>& finish
     }
     StepGroup(group_);
   }
-  for (const auto& flight : flights_) {
-    if (flight->episode.outcome != Outcome::kFlying) {
-      finished(flight->order, flight->episode);
+  std::erase_if(flights_, [&](const auto& flight) {
+    if (flight->recorder.episode().outcome == Outcome::kFlying) {
+      return false;
     }
-  }
-  std::erase_if(flights_, [](const auto& flight) { return flight->episode.outcome != Outcome::kFlying; });
+    OrderResult result{flight->order.index, 0, flight->recorder.Release(), std::move(flight->td_errors)};
+    finished(flight->order, result);
+    return true;
+  });
 }
 
 void Flyer::StepGroup(std::vector<Flight*>& group) {
@@ -121,7 +110,7 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
   const auto forward = [&](const SharedParameters& parameters, MlpWorkspace& workspace) {
     for (int column = 0; column < batch; ++column) {
       network_input_.Write(
-          group[static_cast<size_t>(column)]->environment.state(),
+          group[static_cast<size_t>(column)]->recorder.environment().state(),
           {workspace.input().col(column).data(), static_cast<size_t>(network_input_.size())});
     }
     mlp_.Forward({parameters->data(), static_cast<size_t>(parameters->size())}, batch, workspace);
@@ -137,25 +126,26 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
 }
 
 void Flyer::FinishLastTransition(Flight& flight, int column) {
-  if (flight.episode.rewards.empty()) {
+  const std::vector<float>& rewards = flight.recorder.episode().rewards;
+  if (rewards.empty()) {
     return;
   }
   const Matrix& target_values = target_workspace_.output();
   const Matrix& choosing = double_dqn_ ? current_workspace_.output() : target_values;
-  const float next_value = target_values(GreedyAction(choosing, column, flight.mask), column);
-  flight.episode.td_errors.back() =
-      flight.episode.rewards.back() + discount_ * next_value - flight.chosen_value;
+  const float next_value = target_values(GreedyAction(choosing, column, flight.recorder.mask()), column);
+  flight.td_errors.back() = rewards.back() + discount_ * next_value - flight.chosen_value;
 }
 
 int Flyer::ChooseAction(Flight& flight, int column) const {
   const std::optional<int> exploring = Explore(flight, column);
-  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.mask);
+  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.recorder.mask());
 }
 
 /// A random action, or one of an excursion: a straight flight to a random cell, scheduling greedily. It
 /// ends there, or where the mask does not let it go on. Nothing where the greedy action is due.
 std::optional<int> Flyer::Explore(Flight& flight, int column) const {
-  const State& state = flight.environment.state();
+  const State& state = flight.recorder.environment().state();
+  const std::vector<uint8_t>& mask = flight.recorder.mask();
   RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(state.slot), 0);
   if (flight.waypoint == state.cell) {
     flight.waypoint.reset();
@@ -165,14 +155,14 @@ std::optional<int> Flyer::Explore(Flight& flight, int column) const {
       return std::nullopt;
     }
     if (excursion_share_ == 0 || stream.NextUniform() >= excursion_share_) {
-      const auto allowed = static_cast<uint32_t>(std::count(flight.mask.begin(), flight.mask.end(), 1));
-      return AllowedAction(flight.mask, stream.NextBelow(allowed));
+      const auto allowed = static_cast<uint32_t>(std::count(mask.begin(), mask.end(), 1));
+      return AllowedAction(mask, stream.NextBelow(allowed));
     }
     flight.waypoint = RandomCell(stream);
   }
   const int first = world_->ActionIndex({MoveTowards(state.cell, *flight.waypoint), 0});
-  const std::optional<int> action = BestAllowedAction(current_workspace_.output(), column, flight.mask, first,
-                                                      first + world_->sensors() + 1);
+  const std::optional<int> action =
+      BestAllowedAction(current_workspace_.output(), column, mask, first, first + world_->sensors() + 1);
   if (!action) {
     flight.waypoint.reset();
   }
@@ -186,16 +176,10 @@ Cell Flyer::RandomCell(RandomStream& stream) const {
 }
 
 void Flyer::Act(Flight& flight, int action, float value) {
-  const StepResult result = flight.environment.Step(world_->ActionAt(action));
+  flight.recorder.Step(action);
   flight.chosen_value = value;
-  Episode& episode = flight.episode;
-  episode.actions.push_back(static_cast<int16_t>(action));
-  episode.rewards.push_back(static_cast<float>(result.reward));
-  episode.td_errors.push_back(episode.rewards.back() - value);  // final where the episode ends here
-  episode.states.push_back(flight.environment.state());
-  episode.outcome = result.outcome;
-  flight.environment.WriteMask(mask_options_, flight.mask);
-  AppendMask(flight.mask, episode.next_masks);
+  // Final if the episode ends here; otherwise FinishLastTransition replaces it.
+  flight.td_errors.push_back(flight.recorder.episode().rewards.back() - value);
 }
 
 Episode FlyGreedily(const World& world, const Experiment& experiment, SharedParameters parameters) {
@@ -205,7 +189,7 @@ Episode FlyGreedily(const World& world, const Experiment& experiment, SharedPara
   flyer.Start(order, parameters, parameters);
   Episode flown;
   while (!flyer.Idle()) {
-    flyer.Step([&](const Order&, const Episode& episode) { flown = episode; });
+    flyer.Step([&](const Order&, OrderResult& result) { flown = std::move(result.episode); });
   }
   return flown;
 }

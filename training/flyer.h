@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "core/random.h"
-#include "msgs/episode.h"
 #include "msgs/experiment.h"
 #include "msgs/order.h"
 #include "nn/mlp.h"
-#include "worlds/uav/environment.h"
+#include "worlds/uav/episode.h"
 #include "worlds/uav/network_input.h"
 
 namespace fresco {
@@ -41,21 +40,19 @@ class Flyer {
   /// Takes an order with the parameters of its two versions. CHECKs that there is room.
   void Start(const Order& order, SharedParameters current, SharedParameters target);
 
-  /// Flies one slot of every open order, and hands each episode that ends to `finished`.
-  void Step(const std::function<void(const Order&, const Episode&)>& finished);
+  /// Flies one slot of every open order. Calls `finished` with the order and the result of each episode that
+  /// ends; it may move from the result.
+  void Step(const std::function<void(const Order&, OrderResult&)>& finished);
 
  private:
   struct Flight {
-    Flight(const World& world, const Order& flown_order, SharedParameters current_parameters,
-           SharedParameters target_parameters);
     Order order;
     SharedParameters current;
     SharedParameters target;
-    Environment environment;
-    std::vector<uint8_t> mask;  // of the present state
-    Episode episode;
-    float chosen_value = 0;        // Q(s, a) of the last transition
-    std::optional<Cell> waypoint;  // where an excursion leads
+    EpisodeRecorder recorder;
+    std::vector<float> td_errors = {};  // by transition
+    float chosen_value = 0;             // Q(s, a) of the last transition
+    std::optional<Cell> waypoint = {};  // of an excursion
   };
 
   void StepGroup(std::vector<Flight*>& group);

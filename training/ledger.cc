@@ -6,7 +6,6 @@
 
 #include "core/check.h"
 #include "core/memory_need.h"
-#include "training/episode_check.h"
 
 namespace fresco {
 
@@ -24,15 +23,15 @@ void Ledger::Write(const Order& order) {
   entries_.emplace_back().order = order;
 }
 
-Ledger::Arrival Ledger::Add(const Episode& run) {
-  if (run.order_index < committed_) {
+Ledger::Arrival Ledger::Add(const OrderResult& part) {
+  if (part.order_index < committed_) {
     return Arrival::kDuplicate;
   }
-  if (run.order_index >= committed_ + in_flight()) {
+  if (part.order_index >= committed_ + in_flight()) {
     return Arrival::kUnknownOrder;
   }
-  Entry& entry = entries_[static_cast<size_t>(run.order_index - committed_)];
-  if (entry.episode || !Keep(run, entry)) {
+  Entry& entry = entries_[static_cast<size_t>(part.order_index - committed_)];
+  if (entry.episode || !Keep(part, entry)) {
     return Arrival::kDuplicate;
   }
   if (entry.kept > 2 * world_->maximum_transitions()) {  // no actor sends so many that overlap
@@ -46,41 +45,36 @@ Ledger::Arrival Ledger::Add(const Episode& run) {
   return entry.episode ? Arrival::kCompleted : Arrival::kInconsistent;
 }
 
-/// Keeps the run if it brings a transition that was not here.
-bool Ledger::Keep(const Episode& run, Entry& entry) const {
+/// Keeps the part if it brings a transition that was not here.
+bool Ledger::Keep(const OrderResult& part, Entry& entry) const {
   entry.actions.resize(static_cast<size_t>(world_->maximum_transitions()), kNotHere);
   const int arrived_before = entry.arrived;
-  auto action = entry.actions.begin() + run.first_transition;
-  for (const int16_t flown : run.actions) {
+  auto action = entry.actions.begin() + part.first_transition;
+  for (const int16_t flown : part.episode.actions) {
     entry.arrived += *action == kNotHere ? 1 : 0;
     *action++ = flown;
   }
   if (entry.arrived == arrived_before) {
     return false;
   }
-  if (run.outcome != Outcome::kFlying) {
-    entry.length = run.first_transition + run.transitions();
+  if (part.episode.outcome != Outcome::kFlying) {
+    entry.length = part.first_transition + part.episode.transitions();
   }
-  entry.kept += run.transitions();
-  entry.runs.push_back(run);
+  entry.kept += part.episode.transitions();
+  entry.parts.push_back(part);
   return true;
 }
 
-/// The episode of the actions that have arrived; none if a run says anything else than what is flown.
+/// The episode of the actions that have arrived; none if a part says anything else than what is flown.
 std::optional<Episode> Ledger::FlyAgain(const Entry& entry) const {
   Episode flown;
   const std::span actions(entry.actions.data(), static_cast<size_t>(entry.length));
-  if (!FlyActions(*world_, mask_options_, actions, flown) || flown.transitions() != entry.length) {
-    return std::nullopt;
-  }
-  flown.order_index = entry.order.index;
-  for (const Episode& run : entry.runs) {
-    if (!IsPartOf(run, flown)) {
-      return std::nullopt;
-    }
-    std::copy(run.td_errors.begin(), run.td_errors.end(), flown.td_errors.begin() + run.first_transition);
-  }
-  return flown;
+  const bool follows = FlyActions(*world_, mask_options_, actions, flown) &&
+                       flown.transitions() == entry.length &&
+                       std::all_of(entry.parts.begin(), entry.parts.end(), [&](const OrderResult& part) {
+                         return IsPartOf(part.episode, part.first_transition, flown);
+                       });
+  return follows ? std::optional(std::move(flown)) : std::nullopt;
 }
 
 std::optional<CommittedEpisode> Ledger::TakeNext() {

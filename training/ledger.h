@@ -8,12 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "msgs/episode.h"
 #include "msgs/order.h"
 
 namespace fresco {
 
-/// An order with its whole result.
+/// An order and the episode that was flown for it.
 struct CommittedEpisode {
   Order order;
   Episode episode;
@@ -35,15 +34,15 @@ class Ledger {
     kCompleted,     ///< the order's last missing transitions
     kDuplicate,     ///< nothing new, or an order that is done
     kUnknownOrder,  ///< an order that was never written
-    kInconsistent,  ///< does not follow from its actions in this world; all runs of the order are dropped
+    kInconsistent,  ///< does not follow from its actions in this world; all parts of the result are dropped
   };
 
-  /// Keeps a run of transitions that passed ToEpisodeRun. When an order's last transition has arrived, the
-  /// episode is flown again from its actions; what is flown is what TakeNext hands out, if every run agrees
+  /// Keeps a part of a result that FromWire accepted. When an order's last transition has arrived, the
+  /// episode is flown again from its actions; what is flown is what TakeNext hands out, if every part agrees
   /// with it.
-  Arrival Add(const Episode& run);
+  Arrival Add(const OrderResult& part);
 
-  /// The episode of the lowest index, where it is whole; it is done then.
+  /// The episode of the lowest index if it is complete; it is done then.
   std::optional<CommittedEpisode> TakeNext();
 
   /// Indices below are done.
@@ -57,17 +56,17 @@ class Ledger {
   /// An order that is out, and what of its result has arrived.
   struct Entry {
     Order order;
-    std::vector<Episode> runs = {};       // as they came; none once the episode is complete
+    std::vector<OrderResult> parts = {};  // as they came; none once the episode is complete
     std::vector<int16_t> actions = {};    // by transition; kNotHere if it has not arrived
     int arrived = 0;                      // transitions
-    int kept = 0;                         // transitions of all runs; more if these overlap
-    int length = 0;                       // of the episode; 0 before the run that ends it has arrived
+    int kept = 0;                         // transitions of all parts; more if these overlap
+    int length = 0;                       // of the episode; 0 before the part that ends it has arrived
     std::optional<Episode> episode = {};  // once it is complete: flown again from its actions
   };
   static constexpr int16_t kNotHere = -1;
 
   const Entry& entry(int64_t index) const { return entries_[static_cast<size_t>(index - committed_)]; }
-  bool Keep(const Episode& run, Entry& entry) const;
+  bool Keep(const OrderResult& part, Entry& entry) const;
   std::optional<Episode> FlyAgain(const Entry& entry) const;
 
   const World* world_;

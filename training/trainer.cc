@@ -49,7 +49,7 @@ void Trainer::Begin() {
 }
 
 void Trainer::Commit(const Order& order, const Episode& episode) {
-  FRESCO_CHECK(!orders_.empty() && order == orders_.front().order && episode.order_index == order.index);
+  FRESCO_CHECK(!orders_.empty() && order == orders_.front().order);
   const int64_t updates_at_writing = orders_.front().updates_at_writing;
   orders_.pop_front();
   ++progress_.committed_orders;
@@ -202,12 +202,8 @@ void Trainer::WriteOrder(Order order) {
 
 void Trainer::CommitEvaluation(const Order& order, const Episode& episode) {
   const VersionState& version = versions_.at({NetworkKind::kCurrent, order.current_version});
-  AoiAccumulator accumulator(*world_);
-  for (const State& state : episode.states) {
-    accumulator.Add(state.aoi);
-  }
-  const Evaluation evaluation{order.current_version, version.updates, progress_.episodes,
-                              episode.outcome == Outcome::kArrived, accumulator.Finish()};
+  const Evaluation evaluation{order.current_version, version.updates, progress_.episodes, episode.arrived(),
+                              Figures(*world_, episode)};
   const auto better = [](const Evaluation& a, const Evaluation& b) {
     return a.arrived != b.arrived ? a.arrived : a.arrived && a.figures.average_aoi < b.figures.average_aoi;
   };

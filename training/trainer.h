@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "msgs/episode.h"
 #include "msgs/experiment.h"
+#include "msgs/order.h"
 #include "training/action_history.h"
 #include "training/dqn.h"
 #include "training/replay_memory.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "training/episode_check.h"
 #include "training/trainer.h"
 
 namespace fresco {

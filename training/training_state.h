@@ -11,7 +11,7 @@
 #include "msgs/order.h"
 #include "nn/adam.h"
 #include "nn/mlp.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 

@@ -82,16 +82,16 @@ std::vector<order_t> ActorTest::Orders(int64_t first, int64_t count) const {
   return orders;
 }
 
-Episode ActorTest::Expected(int64_t index) const {
+OrderResult ActorTest::Expected(int64_t index) const {
   return FlyAlone(world_, experiment_, {TrainOrder(index, kEpsilon), current_, target_});
 }
 
 void ActorTest::ExpectEpisodes(size_t before, const std::vector<int64_t>& indices) const {
   std::vector<int64_t> arrived;
-  for (size_t i = before; i < learner_.episodes().size(); ++i) {
-    const Episode& episode = learner_.episodes()[i];
-    arrived.push_back(episode.order_index);
-    EXPECT_TRUE(SameBits(episode, Expected(episode.order_index))) << episode.order_index;
+  for (size_t i = before; i < learner_.results().size(); ++i) {
+    const OrderResult& result = learner_.results()[i];
+    arrived.push_back(result.order_index);
+    EXPECT_TRUE(SameBits(result, Expected(result.order_index))) << result.order_index;
   }
   std::sort(arrived.begin(), arrived.end());
   EXPECT_EQ(arrived, indices);

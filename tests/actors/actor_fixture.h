@@ -35,7 +35,7 @@ class ActorTest : public ::testing::Test {
   std::vector<order_t> Orders(int64_t first, int64_t count) const;
 
   /// The episode that an order, written by OrderTo, has to give.
-  Episode Expected(int64_t index) const;
+  OrderResult Expected(int64_t index) const;
   /// Expects the learner to have got these orders' episodes since it had `before` of them, in any order.
   void ExpectEpisodes(size_t before, const std::vector<int64_t>& indices) const;
 

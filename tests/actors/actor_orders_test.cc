@@ -13,11 +13,11 @@ TEST_F(ActorOrders, GiveWholeEpisodesWithTheBitsOfAFlyer) {
   learner_.SendOrders(Orders(0, 5));
   FlyAll();
   ExpectEpisodes(0, {0, 1, 2, 3, 4});
-  EXPECT_GT(learner_.episodes()[0].transitions(), TransitionsPerMessage(world_.sensors()));
+  EXPECT_GT(learner_.results()[0].episode.transitions(), TransitionsPerMessage(world_.sensors()));
   EXPECT_EQ(learner_.senders(), std::set<int64_t>{kActorId});
   int64_t transitions = 0;
-  for (const Episode& episode : learner_.episodes()) {
-    transitions += episode.transitions();
+  for (const OrderResult& result : learner_.results()) {
+    transitions += result.episode.transitions();
   }
   const actor_status_t status = NextStatus();
   EXPECT_EQ(status.episodes, 5);
@@ -72,7 +72,7 @@ TEST_F(ActorOrders, OfNoRunAreIgnored) {
   FlyAll();
   BeginRun();
   FlyAll();
-  EXPECT_TRUE(learner_.episodes().empty());
+  EXPECT_TRUE(learner_.results().empty());
 }
 
 TEST_F(ActorOrders, ThatAreAnnouncedAgainHaveWhatWasFlownSentAgainEveryFiftyMilliseconds) {

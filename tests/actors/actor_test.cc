@@ -80,10 +80,10 @@ TEST_F(ActorTest, LeavesAFinishedRunAndServesTheNext) {
   next.SendVersion({NetworkKind::kTarget, 0}, *parameters);
   next.SendOrders(Orders(0, 1));
   FlyAll();
-  ASSERT_EQ(next.episodes().size(), 1u);
-  EXPECT_TRUE(SameBits(next.episodes()[0], FlyAlone(World(experiment.scenario()), experiment,
-                                                    {TrainOrder(0, kEpsilon), parameters, parameters})));
-  EXPECT_EQ(learner_.episodes().size(), 2u);
+  ASSERT_EQ(next.results().size(), 1u);
+  EXPECT_TRUE(SameBits(next.results()[0], FlyAlone(World(experiment.scenario()), experiment,
+                                                   {TrainOrder(0, kEpsilon), parameters, parameters})));
+  EXPECT_EQ(learner_.results().size(), 2u);
   EXPECT_EQ(actor_.totals().runs, 2);
 }
 

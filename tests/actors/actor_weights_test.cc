@@ -27,7 +27,7 @@ TEST_F(ActorWeights, AreWaitedForUntilBothNetworksAreComplete) {
   learner_.SendVersion(kTarget3, *target_);
   learner_.SendVersion(kCurrent4, *current_, {2});
   FlyAll();
-  EXPECT_TRUE(learner_.episodes().empty());
+  EXPECT_TRUE(learner_.results().empty());
   learner_.SendVersion(kCurrent4, *current_, {0, 1});
   FlyAll();
   ExpectEpisodes(0, {0});
@@ -131,7 +131,7 @@ TEST_F(ActorWeights, WhoseCrcDoesNotHoldAreNeverFlownWith) {
     learner_.Send(channels_.weights_current, WeightsChunk(values, crc, 4, chunk));
   }
   FlyAll();
-  EXPECT_TRUE(learner_.episodes().empty());
+  EXPECT_TRUE(learner_.results().empty());
   EXPECT_EQ(actor_.totals().rejected.total(), 1);
   NextStatus();
   EXPECT_EQ(Plain(NextStatus().missing), (Ranges{{0, 4, 0, chunks()}}));

@@ -35,23 +35,24 @@ LearnerDouble::LearnerDouble(Bus& bus, const Channels& channels, const Experimen
 }
 
 void LearnerDouble::TakeTransitions(const transitions_t& message) {
-  Episode run;
-  ASSERT_TRUE(ToEpisodeRun(world_, message, run));
-  if (run.first_transition == 0) {
-    open_ = run;
+  OrderResult part;
+  ASSERT_TRUE(FromWire(world_, message, part));
+  if (part.first_transition == 0) {
+    open_ = part;
   } else {
-    ASSERT_EQ(run.order_index, open_.order_index);
-    ASSERT_EQ(run.first_transition, open_.transitions());
-    run.states.erase(run.states.begin());  // the last one of the run before
-    Append(run.states, open_.states);
-    Append(run.actions, open_.actions);
-    Append(run.rewards, open_.rewards);
-    Append(run.td_errors, open_.td_errors);
-    Append(run.next_masks, open_.next_masks);
-    open_.outcome = run.outcome;
+    Episode& all = open_.episode;
+    ASSERT_EQ(part.order_index, open_.order_index);
+    ASSERT_EQ(part.first_transition, all.transitions());
+    part.episode.states.erase(part.episode.states.begin());  // the last one of the part before
+    Append(part.episode.states, all.states);
+    Append(part.episode.actions, all.actions);
+    Append(part.episode.rewards, all.rewards);
+    Append(part.td_errors, open_.td_errors);
+    Append(part.episode.next_masks, all.next_masks);
+    all.outcome = part.episode.outcome;
   }
-  if (open_.outcome != Outcome::kFlying) {
-    episodes_.push_back(open_);
+  if (open_.episode.outcome != Outcome::kFlying) {
+    results_.push_back(open_);
     senders_.insert(message.actor_id);
   }
 }

@@ -10,7 +10,6 @@
 #include "actors/network_store.h"
 #include "bus/bus.h"
 #include "msgs/channels.h"
-#include "msgs/episode.h"
 #include "tests/training/acting_samples.h"
 
 namespace fresco {
@@ -41,8 +40,8 @@ class LearnerDouble {
   /// When the messages from now on were sent, by the learner's clock.
   void SetClock(int64_t utime) { utime_ = utime; }
   RunIdentity identity() const { return identity_; }
-  /// Whole episodes of this run in the order of their arrival, and who sent them.
-  const std::vector<Episode>& episodes() const { return episodes_; }
+  /// Complete results of this run in the order of their arrival, and who sent them.
+  const std::vector<OrderResult>& results() const { return results_; }
   const std::set<int64_t>& senders() const { return senders_; }
   /// Statuses of every run and of none.
   const std::vector<actor_status_t>& statuses() const { return statuses_; }
@@ -56,8 +55,8 @@ class LearnerDouble {
   World world_;
   RunIdentity identity_;
   int64_t utime_ = 1;
-  Episode open_;  // the episode whose runs are arriving
-  std::vector<Episode> episodes_;
+  OrderResult open_;  // the result whose parts are arriving
+  std::vector<OrderResult> results_;
   std::set<int64_t> senders_;
   std::vector<actor_status_t> statuses_;
 };

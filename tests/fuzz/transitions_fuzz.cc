@@ -1,5 +1,5 @@
 // Transitions, from bytes to the ledger, in the paper's world with three sensors. The input is a sequence
-// of encodings without trailer, each behind its length as two big-endian bytes. What ToEpisodeRun lets
+// of encodings without trailer, each behind its length as two big-endian bytes. What FromWire lets
 // through is in range, and what the ledger commits follows from its actions.
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include "core/check.h"
 #include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
-#include "training/episode_check.h"
 #include "training/ledger.h"
 
 namespace fresco {
@@ -30,22 +29,27 @@ void CheckState(const World& world, const State& state) {
   FRESCO_CHECK(*least >= 1 && *most <= world.scenario().slots);
 }
 
-void CheckRun(const World& world, const Episode& run) {
+void CheckEpisode(const World& world, const Episode& episode) {
   const auto finite = [](float value) { return std::isfinite(value); };
-  const size_t count = run.actions.size();
-  FRESCO_CHECK(count >= 1 && run.states.size() == count + 1);
-  FRESCO_CHECK(run.rewards.size() == count && run.td_errors.size() == count);
-  FRESCO_CHECK(run.next_masks.size() == count * static_cast<size_t>(MaskSize(world)));
-  FRESCO_CHECK(run.first_transition >= 0 && run.order_index >= 0);
-  FRESCO_CHECK(run.first_transition + run.transitions() <= world.maximum_transitions());
-  for (const State& state : run.states) {
+  const size_t count = episode.actions.size();
+  FRESCO_CHECK(count >= 1 && episode.states.size() == count + 1 && episode.rewards.size() == count);
+  FRESCO_CHECK(episode.next_masks.size() == count * static_cast<size_t>(MaskSize(world)));
+  for (const State& state : episode.states) {
     CheckState(world, state);
   }
-  FRESCO_CHECK(std::all_of(run.rewards.begin(), run.rewards.end(), finite));
-  FRESCO_CHECK(std::all_of(run.td_errors.begin(), run.td_errors.end(), finite));
-  for (const int16_t action : run.actions) {
+  FRESCO_CHECK(std::all_of(episode.rewards.begin(), episode.rewards.end(), finite));
+  for (const int16_t action : episode.actions) {
     FRESCO_CHECK(action >= 0 && action < world.actions());
   }
+}
+
+void CheckPart(const World& world, const OrderResult& part) {
+  CheckEpisode(world, part.episode);
+  FRESCO_CHECK(part.td_errors.size() == part.episode.actions.size());
+  FRESCO_CHECK(part.first_transition >= 0 && part.order_index >= 0);
+  FRESCO_CHECK(part.first_transition + part.episode.transitions() <= world.maximum_transitions());
+  FRESCO_CHECK(std::all_of(part.td_errors.begin(), part.td_errors.end(),
+                           [](float value) { return std::isfinite(value); }));
 }
 
 /// The next encoding of the input, which it is cut off from; empty at the end.
@@ -66,18 +70,18 @@ void CheckAll(std::span<const std::byte> input) {
     ledger.Write({.index = index});
   }
   transitions_t message{};
-  Episode run;
+  OrderResult part;
   for (auto encoding = NextEncoding(input); !encoding.empty(); encoding = NextEncoding(input)) {
-    if (Decode(WithTrailer(encoding), message) && ToEpisodeRun(world, message, run)) {
-      CheckRun(world, run);
-      ledger.Add(run);
+    if (Decode(WithTrailer(encoding), message) && FromWire(world, message, part)) {
+      CheckPart(world, part);
+      ledger.Add(part);
     }
   }
   while (const auto committed = ledger.TakeNext()) {
-    CheckRun(world, committed->episode);
+    CheckEpisode(world, committed->episode);
     Episode flown;
     FRESCO_CHECK(FlyActions(world, {}, committed->episode.actions, flown) &&
-                 IsPartOf(committed->episode, flown));
+                 IsPartOf(committed->episode, 0, flown));
   }
 }
 

@@ -11,7 +11,6 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "logs/event_log_writer.h"
-#include "msgs/episode.h"
 #include "storage/checkpoint_file.h"
 #include "storage/network_file.h"
 #include "tests/msgs/message_samples.h"
@@ -67,38 +66,14 @@ void WriteWire(const std::filesystem::path& directory) {
   AddMessages<flight_t>(stream, type++, corpus);
 }
 
-/// A flight of random actions, safe ones where `mask` says so.
-Episode Fly(const World& world, int64_t order_index, MaskOptions mask) {
-  Environment environment(world);
-  RandomStream stream(2, RandomPurpose::kTest, static_cast<uint32_t>(order_index), 0);
-  std::vector<uint8_t> allowed(static_cast<size_t>(world.actions()));
-  Episode episode;
-  episode.order_index = order_index;
-  episode.states.push_back(environment.state());
-  while (environment.outcome() == Outcome::kFlying) {
-    environment.WriteMask(mask, allowed);
-    uint32_t action = 0;
-    do {
-      action = stream.NextBelow(static_cast<uint32_t>(world.actions()));
-    } while (allowed[action] == 0);
-    episode.rewards.push_back(
-        static_cast<float>(environment.Step(world.ActionAt(static_cast<int>(action))).reward));
-    episode.actions.push_back(static_cast<int16_t>(action));
-    episode.td_errors.push_back(static_cast<float>(stream.NextUniform()));
-    episode.states.push_back(environment.state());
-    environment.WriteMask({}, allowed);
-    AppendMask(allowed, episode.next_masks);
-  }
-  episode.outcome = environment.outcome();
-  return episode;
-}
-
 void WriteTransitions(const std::filesystem::path& directory) {
   Corpus corpus(directory, "transitions_fuzz");
   const World world(Experiment::Parse("", "the defaults").scenario());
   for (int64_t order = 0; order < 4; ++order) {
     Bytes sample;
-    SplitEpisode(world, Fly(world, order, {order % 2 == 0, false}), 3, [&](transitions_t message) {
+    RandomStream stream(2, RandomPurpose::kTest, static_cast<uint32_t>(order), 0);
+    const OrderResult result = RandomResult(world, order, {order % 2 == 0, false}, stream);
+    SplitResult(world, result, 3, [&](transitions_t message) {
       Stamp(message, {1, 2}, 1);
       const Bytes bytes = Encoded(message);
       const auto encoding = std::span(bytes).first(bytes.size() - kTrailerBytes);

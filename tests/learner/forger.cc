@@ -1,7 +1,6 @@
 #include "tests/learner/forger.h"
 
 #include "bus/authenticated_bus.h"
-#include "msgs/episode.h"
 #include "msgs/message_bus.h"
 #include "msgs/order.h"
 #include "tests/training/literal_run.h"
@@ -26,10 +25,10 @@ void Forger::Answer(const orders_t& message) {
     Order order;
     if (FromWire(wire, order)) {
       order.epsilon = 1;
-      SplitEpisode(*world_, FlyOrder(*world_, *experiment_, order, zero, zero), wire.actor_id,
-                   [&](const transitions_t& run) {
-                     MessageBus(*bus_).Publish(channels_.transitions, run, IdentityOf(message));
-                   });
+      SplitResult(*world_, FlyOrder(*world_, *experiment_, order, zero, zero), wire.actor_id,
+                  [&](const transitions_t& part) {
+                    MessageBus(*bus_).Publish(channels_.transitions, part, IdentityOf(message));
+                  });
     }
   }
 }

@@ -66,15 +66,15 @@ TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
 TEST_F(LearnerMemoryTest, OfOrdersInFlightIsForetold) {
   const RecordedRun run;
   constexpr int64_t kManyOrders = 300;
-  Episode episode = run.Fly(run.next());
+  OrderResult result = ResultOf(0, run.Fly(run.next()));
   const int64_t measured = HeapUseOf([&] {
     auto ledger = std::make_unique<Ledger>(run.world, run.experiment.mask_options());
     for (int64_t index = 0; index < kManyOrders; ++index) {
       Order order;
       order.index = index;
       ledger->Write(order);
-      episode.order_index = index;
-      EXPECT_EQ(ledger->Add(episode), Ledger::Arrival::kCompleted);
+      result.order_index = index;
+      EXPECT_EQ(ledger->Add(result), Ledger::Arrival::kCompleted);
     }
     return ledger;
   });

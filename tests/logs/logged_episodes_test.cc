@@ -50,10 +50,8 @@ TEST_F(LoggedEpisodesTest, HandsOutTheEpisodesThatWereFlown) {
   ASSERT_EQ(episodes.whole().size(), live_.episodes.size());
   for (size_t i = 3; i < live_.episodes.size(); i += 2) {
     const Episode episode = episodes.Take(static_cast<int64_t>(i));
-    EXPECT_EQ(episode.order_index, static_cast<int64_t>(i));
     EXPECT_EQ(episode.actions, live_.episodes[i].actions);
     EXPECT_EQ(episode.rewards, live_.episodes[i].rewards);
-    EXPECT_EQ(episode.td_errors, live_.episodes[i].td_errors);
     EXPECT_EQ(episode.next_masks, live_.episodes[i].next_masks);
     EXPECT_EQ(episode.outcome, live_.episodes[i].outcome);
   }

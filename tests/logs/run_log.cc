@@ -68,8 +68,8 @@ std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity) {
     orders.order_count = 1;
     orders.orders = {ToWire(run.orders[i], 5, 0)};
     events.Add("FRESCO_ORDERS", orders);
-    SplitEpisode(run.world, run.episodes[i], 5,
-                 [&](const transitions_t& message) { events.Add("FRESCO_TRANSITIONS", message); });
+    SplitResult(run.world, ResultOf(run.orders[i].index, run.episodes[i]), 5,
+                [&](const transitions_t& message) { events.Add("FRESCO_TRANSITIONS", message); });
   }
   return std::move(events).events();
 }

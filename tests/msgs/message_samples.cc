@@ -190,4 +190,21 @@ void Randomise(RandomStream& stream, flight_t& message) {
                      Below(stream, kMaximumPolicyBytes + 1));
 }
 
+OrderResult RandomResult(const World& world, int64_t order_index, MaskOptions mask, RandomStream& stream) {
+  EpisodeRecorder recorder(world, {});
+  OrderResult result{order_index, 0, {}, {}};
+  std::vector<uint8_t> allowed(static_cast<size_t>(world.actions()));
+  while (recorder.episode().outcome == Outcome::kFlying) {
+    recorder.environment().WriteMask(mask, allowed);
+    uint32_t action = 0;
+    do {
+      action = stream.NextBelow(static_cast<uint32_t>(world.actions()));
+    } while (allowed[action] == 0);
+    recorder.Step(static_cast<int>(action));
+    result.td_errors.push_back(static_cast<float>(stream.NextUniform()));
+  }
+  result.episode = recorder.Release();
+  return result;
+}
+
 }  // namespace fresco

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "msgs/wire.h"
+#include "msgs/order.h"
 
 namespace fresco {
 
@@ -35,6 +35,10 @@ actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int ho
 learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length);
 scenario_t ScenarioOf(RandomStream& stream, int sensors);
 flight_t FlightOf(RandomStream& stream, int sensors, int policy_length);
+
+/// The result of an order whose episode takes random actions among those that `mask` allows. It records
+/// masks that allow everything.
+OrderResult RandomResult(const World& world, int64_t order_index, MaskOptions mask, RandomStream& stream);
 
 template <class Message>
 std::vector<std::byte> Encoded(const Message& message) {

@@ -19,7 +19,7 @@ void ExpectHolds(const World& world, const Plan& plan, double optimum) {
   constexpr double kRounding = 1e-9;
   const double found = Figures(world, plan.flight).average_aoi;
   EXPECT_TRUE(plan.flight.arrived());
-  EXPECT_GE(plan.flight.residual_energy_j, 0);
+  EXPECT_GE(ResidualEnergy(world, plan.flight), 0);
   EXPECT_GE(plan.lower_bound_average_aoi, 1 - kRounding);  // an AoI is never below 1
   EXPECT_LE(plan.lower_bound_average_aoi, optimum + kRounding);
   EXPECT_GE(found, optimum - kRounding);

@@ -15,29 +15,22 @@
 #include "tests/support/sanitized.h"
 #include "tests/worlds/literal_model.h"
 #include "tests/worlds/test_scenarios.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
 
-std::vector<Action> ActionsOf(const Flight& flight) {
-  std::vector<Action> actions;
-  for (const FlightSlot& slot : flight.slots) {
-    actions.push_back(slot.action);
-  }
-  actions.pop_back();  // slot T has no decision
-  return actions;
-}
-
 // The flight's actions, flown through the second statement of the model, arrive with the same AoI.
-void ExpectFlies(const Scenario& scenario, const Flight& flight) {
-  ASSERT_EQ(flight.slots.size(), static_cast<size_t>(scenario.slots));
-  const std::vector<Action> actions = ActionsOf(flight);
-  for (size_t slots = 0; slots <= actions.size(); ++slots) {
-    const LiteralState state =
-        SimulateLiterally(scenario, {actions.begin(), actions.begin() + static_cast<int64_t>(slots)});
-    const std::vector<int16_t>& aoi = flight.slots[slots].state.aoi;
+void ExpectFlies(const Scenario& scenario, const Episode& flight) {
+  const World world(scenario);
+  ASSERT_EQ(flight.states.size(), static_cast<size_t>(scenario.slots));
+  std::vector<Action> actions;
+  for (size_t slots = 0; slots < flight.states.size(); ++slots) {
+    const LiteralState state = SimulateLiterally(scenario, actions);
+    const std::vector<int16_t>& aoi = flight.states[slots].aoi;
     ASSERT_EQ(std::vector<int>(aoi.begin(), aoi.end()), state.aoi);
-    ASSERT_EQ(state.outcome, slots < actions.size() ? "flying" : "arrived");
+    ASSERT_EQ(state.outcome, slots < flight.actions.size() ? "flying" : "arrived");
+    actions.push_back(ActionIn(world, flight, slots));
   }
 }
 
@@ -188,7 +181,7 @@ TEST(Planner, GivesTheSameResultTwice) {
     const World world(TinyScenario(index));
     const Plan first = PlanOptimally(world);
     const Plan second = PlanOptimally(world);
-    EXPECT_EQ(ActionsOf(first.flight), ActionsOf(second.flight));
+    EXPECT_EQ(first.flight.actions, second.flight.actions);
     EXPECT_EQ(first.lower_bound_average_aoi, second.lower_bound_average_aoi);
     EXPECT_EQ(first.labels, second.labels);
   }

@@ -7,6 +7,7 @@
 #include "core/atomic_file.h"
 #include "tests/report/picture_files.h"
 #include "tests/support/temporary_folder.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -24,46 +25,54 @@ World SmallWorld() {
   return World(scenario);
 }
 
-/// Slots of `flight` in which a sensor within the radius was scheduled, from the distances themselves.
-std::vector<FlightSlot> Collections(const World& world, const Flight& flight) {
-  std::vector<FlightSlot> slots;
-  for (const FlightSlot& slot : flight.slots) {
-    if (slot.action.schedule > 0) {
-      const Sensor& sensor = world.scenario().sensors[static_cast<size_t>(slot.action.schedule - 1)];
-      const double distance_m = std::hypot(slot.state.cell.column * world.scenario().cell_m - sensor.x_m,
-                                           slot.state.cell.row * world.scenario().cell_m - sensor.y_m);
+/// A sensor within the radius that was scheduled over a cell.
+struct Collection {
+  Cell cell;
+  Sensor sensor;
+};
+
+/// The collections of a flight, from the distances themselves.
+std::vector<Collection> Collections(const World& world, const Episode& flight) {
+  std::vector<Collection> collections;
+  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+    const int scheduled = ActionIn(world, flight, slot).schedule;
+    if (scheduled > 0) {
+      const Cell cell = flight.states[slot].cell;
+      const Sensor& sensor = world.scenario().sensors[static_cast<size_t>(scheduled - 1)];
+      const double distance_m = std::hypot(cell.column * world.scenario().cell_m - sensor.x_m,
+                                           cell.row * world.scenario().cell_m - sensor.y_m);
       if (distance_m <= world.scenario().coverage_radius_m) {
-        slots.push_back(slot);
+        collections.push_back({cell, sensor});
       }
     }
   }
-  return slots;
+  return collections;
 }
 
 TEST(FlightMap, ShowsThePathSlotBySlotWithinItsCells) {
   const World world = SmallWorld();
-  const Flight flight = FlyBaseline(world, BaselineKind::kAoi);
+  const Episode flight = FlyBaseline(world, BaselineKind::kAoi);
   const auto path = DataBlock(DrawFlightMap("map", world, flight).script, "path");
-  ASSERT_EQ(path.size(), flight.slots.size());
+  ASSERT_EQ(path.size(), flight.states.size());
   for (size_t i = 0; i < path.size(); ++i) {
     ASSERT_EQ(path[i].size(), 3U);
-    EXPECT_LT(std::abs(path[i][0] - flight.slots[i].state.cell.column), 0.5);
-    EXPECT_LT(std::abs(path[i][1] - flight.slots[i].state.cell.row), 0.5);
+    EXPECT_LT(std::abs(path[i][0] - flight.states[i].cell.column), 0.5);
+    EXPECT_LT(std::abs(path[i][1] - flight.states[i].cell.row), 0.5);
     EXPECT_EQ(path[i][2], static_cast<double>(i + 1));
   }
 }
 
 TEST(FlightMap, JoinsEveryCollectionWithItsSensor) {
   const World world = SmallWorld();
-  const Flight flight = FlyBaseline(world, BaselineKind::kDistance);
-  const std::vector<FlightSlot> expected = Collections(world, flight);
+  const Episode flight = FlyBaseline(world, BaselineKind::kDistance);
+  const std::vector<Collection> expected = Collections(world, flight);
   ASSERT_GT(expected.size(), 3U);
   const auto shown = DataBlock(DrawFlightMap("map", world, flight).script, "collections");
   ASSERT_EQ(shown.size(), expected.size());
   for (size_t i = 0; i < shown.size(); ++i) {
-    const Sensor& sensor = world.scenario().sensors[static_cast<size_t>(expected[i].action.schedule - 1)];
-    EXPECT_LT(std::abs(shown[i][0] - expected[i].state.cell.column), 0.5);
-    EXPECT_LT(std::abs(shown[i][1] - expected[i].state.cell.row), 0.5);
+    const auto& [cell, sensor] = expected[i];
+    EXPECT_LT(std::abs(shown[i][0] - cell.column), 0.5);
+    EXPECT_LT(std::abs(shown[i][1] - cell.row), 0.5);
     EXPECT_NEAR(shown[i][0] + shown[i][2], sensor.x_m / 25, 1e-9);
     EXPECT_NEAR(shown[i][1] + shown[i][3], sensor.y_m / 25, 1e-9);
   }
@@ -71,15 +80,15 @@ TEST(FlightMap, JoinsEveryCollectionWithItsSensor) {
 
 TEST(FlightMap, LeavesOutSchedulesWithoutCoverage) {
   const World world = SmallWorld();
-  const Flight flight = Fly(world, [&](const Environment& environment) {
+  const Episode flight = Fly(world, [&](const Environment& environment) {
     const bool east = environment.state().cell.column < world.scenario().stop.column;
     const bool north = environment.state().cell.row < world.scenario().stop.row;
     return Action{east ? Move::kEast : north ? Move::kNorth : Move::kHover, 2};
   });
-  const std::vector<FlightSlot> expected = Collections(world, flight);
+  const std::vector<Collection> expected = Collections(world, flight);
   const auto shown = DataBlock(DrawFlightMap("map", world, flight).script, "collections");
   EXPECT_EQ(shown.size(), expected.size());
-  EXPECT_LT(shown.size(), flight.slots.size() - 1);
+  EXPECT_LT(shown.size(), flight.states.size() - 1);
 }
 
 TEST(FlightMap, HasTheSensorsInCellsWithTheirNumbers) {
@@ -115,7 +124,7 @@ TEST(FlightMap, IsTwoFilesThatStayTheSame) {
 
 TEST(FlightMap, CanBeDrawnOfAFlightThatEndedEarlyWithoutCollections) {
   const World world = SmallWorld();
-  const Flight flight = Fly(world, [](const Environment&) { return Action{Move::kHover, 0}; });
+  const Episode flight = Fly(world, [](const Environment&) { return Action{Move::kHover, 0}; });
   ASSERT_FALSE(flight.arrived());
   const TemporaryFolder folder;
   WritePicture(DrawFlightMap("hovered", world, flight), folder.path() / "map");

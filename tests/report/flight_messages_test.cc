@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <nlohmann/json.hpp>
 
 #include "report/result_display.h"
 #include "tests/worlds/test_scenarios.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -14,14 +16,14 @@ namespace {
 constexpr uint32_t kThisTest = 31;
 const std::vector<std::string> kMoveNames = {"north", "south", "east", "west", "hover"};
 
-Flight RandomFlight(const World& world, uint32_t index) {
+Episode RandomFlight(const World& world, uint32_t index) {
   RandomStream stream = TestStream(kThisTest, index);
   return Fly(world, [&](const Environment& environment) {
     return RandomAction(world, environment, {index % 2 == 0, false}, &stream);
   });
 }
 
-void ExpectSameFlight(const World& world, const Flight& flight) {
+void ExpectSameFlight(const World& world, const Episode& flight) {
   const auto json = nlohmann::json::parse(FlightJson(world, flight, "p"));
   const std::vector<flight_t> messages = FlightMessages(world, flight, "p");
   ASSERT_EQ(messages.size(), json["flight"].size());
@@ -44,7 +46,7 @@ void ExpectSameFlight(const World& world, const Flight& flight) {
     reward += message.reward;
   }
   EXPECT_EQ(messages.back().outcome, static_cast<int>(flight.outcome));
-  EXPECT_NEAR(reward, flight.total_reward, 1e-3 * (1 + std::abs(flight.total_reward)));
+  EXPECT_DOUBLE_EQ(reward, std::accumulate(flight.rewards.begin(), flight.rewards.end(), 0.0));
   EXPECT_FLOAT_EQ(messages.back().remaining_energy_j, json["residual_energy_j"].get<float>());
 }
 
@@ -57,7 +59,7 @@ TEST(FlightMessages, AreTheFlightThatEvaluatePrints) {
 
 TEST(FlightMessages, SumTheAoiOfAWholeFlight) {
   const World world(TableOneScenario());
-  const Flight flight = FlyBaseline(world, BaselineKind::kAoi);
+  const Episode flight = FlyBaseline(world, BaselineKind::kAoi);
   ExpectSameFlight(world, flight);
   const std::vector<flight_t> messages = FlightMessages(world, flight, "aoi");
   EXPECT_EQ(messages.size(), 70u);

@@ -11,6 +11,7 @@
 
 #include "tests/report/picture_files.h"
 #include "tests/worlds/test_scenarios.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -125,7 +126,8 @@ TEST_F(ReportTest, CarriesEverySlotOfEveryFlight) {
     EXPECT_EQ(flights[number]["outcome"], "arrived");
     ASSERT_EQ(flights[number]["flight"].size(), 70);
     for (size_t slot = 0; slot < 70; ++slot) {
-      const auto& [state, action] = expected.flight.slots[slot];
+      const State& state = expected.flight.states[slot];
+      const Action action = ActionIn(*contents.world, expected.flight, slot);
       const Json& found = flights[number]["flight"][slot];
       EXPECT_EQ(found["slot"], slot + 1);
       EXPECT_EQ(found["column"], state.cell.column);

@@ -14,6 +14,7 @@
 #include "msgs/experiment.h"
 #include "planner/planner.h"
 #include "report/report.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -41,7 +42,9 @@ std::string ReadText(const std::filesystem::path& path) {
 std::string Csv(const World& world, const std::vector<ReportFlight>& flights) {
   std::string csv;
   for (const ReportFlight& flight : flights) {
-    for (const auto& [state, action] : flight.flight.slots) {
+    for (size_t slot = 0; slot < flight.flight.states.size(); ++slot) {
+      const State& state = flight.flight.states[slot];
+      const Action action = ActionIn(world, flight.flight, slot);
       const bool collected = action.schedule > 0 && world.Covers(state.cell, action.schedule - 1);
       csv +=
           fmt::format("{},{},{},{},{},{},{},{}\n", flight.name, state.slot, state.cell.column, state.cell.row,
@@ -54,7 +57,7 @@ std::string Csv(const World& world, const std::vector<ReportFlight>& flights) {
 std::vector<std::string> FlightRow(const World& world, const ReportFlight& flight) {
   const AoiFigures figures = Figures(world, flight.flight);
   return {flight.name, fmt::format("{:.3f}", figures.average_aoi), fmt::format("{}", figures.total_aoi),
-          fmt::format("{:.0f}", flight.flight.residual_energy_j)};
+          fmt::format("{:.0f}", ResidualEnergy(world, flight.flight))};
 }
 
 void WritePage(const std::filesystem::path& folder, const std::string& name, const ReportContents& contents) {

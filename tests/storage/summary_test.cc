@@ -9,6 +9,7 @@
 #include "tests/learner/literal_crc32c.h"
 #include "tests/training/recorded_run.h"
 #include "training/flyer.h"
+#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -103,11 +104,7 @@ TEST(Summary, GivesTheFiguresOfBothBaselines) {
   EXPECT_EQ(baselines.size(), 2u);
   for (const auto& [name, kind] :
        {std::pair("aoi", BaselineKind::kAoi), std::pair("distance", BaselineKind::kDistance)}) {
-    std::vector<State> states;
-    for (const FlightSlot& slot : FlyBaseline(run.world, kind).slots) {
-      states.push_back(slot.state);
-    }
-    ExpectFigures(baselines.at(name), states);
+    ExpectFigures(baselines.at(name), FlyBaseline(run.world, kind).states);
   }
 }
 
@@ -177,7 +174,7 @@ TEST(Summary, WritesTheOptimumAsActionsThatFlyIt) {
   const auto plan = PlanOf(run, true);
   const Json optimum = Json::parse(OptimumJson(run.world, *plan));
   size_t next = 0;
-  const Flight flight = Fly(run.world, [&](const Environment&) {
+  const Episode flight = Fly(run.world, [&](const Environment&) {
     return run.world.ActionAt(optimum.at("actions").at(next++).get<int>());
   });
   EXPECT_TRUE(flight.arrived());

@@ -14,11 +14,6 @@ bool SameFloats(const std::vector<float>& a, const std::vector<float>& b) {
   });
 }
 
-bool SameState(const State& a, const State& b) {
-  return a.slot == b.slot && a.cell == b.cell && a.time_margin == b.time_margin &&
-         SameFloats({a.energy_margin_j}, {b.energy_margin_j}) && a.aoi == b.aoi;
-}
-
 }  // namespace
 
 Experiment SmallField(const Settings& settings) {
@@ -52,29 +47,32 @@ Order TrainOrder(int64_t index, double epsilon) {
   return order;
 }
 
-Episode FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan) {
+OrderResult FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan) {
   return FlyTogether(world, experiment, 1, {plan}, 1).at(plan.order.index);
 }
 
-std::map<int64_t, Episode> FlyTogether(const World& world, const Experiment& experiment, int capacity,
-                                       const std::vector<FlightPlan>& plans, int per_slot) {
+std::map<int64_t, OrderResult> FlyTogether(const World& world, const Experiment& experiment, int capacity,
+                                           const std::vector<FlightPlan>& plans, int per_slot) {
   Flyer flyer(world, experiment, capacity);
-  std::map<int64_t, Episode> flown;
+  std::map<int64_t, OrderResult> flown;
   auto next = plans.begin();
   while (next != plans.end() || !flyer.Idle()) {
     for (int i = 0; i < per_slot && next != plans.end() && flyer.HasRoom(); ++i, ++next) {
       flyer.Start(next->order, next->current, next->target);
     }
-    flyer.Step([&](const Order&, const Episode& episode) { flown.emplace(episode.order_index, episode); });
+    flyer.Step(
+        [&](const Order& order, OrderResult& result) { flown.emplace(order.index, std::move(result)); });
   }
   return flown;
 }
 
 bool SameBits(const Episode& a, const Episode& b) {
+  return a.transitions() == b.transitions() && SameFloats(a.rewards, b.rewards) && IsPartOf(a, 0, b);
+}
+
+bool SameBits(const OrderResult& a, const OrderResult& b) {
   return a.order_index == b.order_index && a.first_transition == b.first_transition &&
-         a.outcome == b.outcome && a.actions == b.actions && a.next_masks == b.next_masks &&
-         SameFloats(a.rewards, b.rewards) && SameFloats(a.td_errors, b.td_errors) &&
-         std::equal(a.states.begin(), a.states.end(), b.states.begin(), b.states.end(), SameState);
+         SameFloats(a.td_errors, b.td_errors) && SameBits(a.episode, b.episode);
 }
 
 }  // namespace fresco

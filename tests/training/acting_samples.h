@@ -29,14 +29,15 @@ struct FlightPlan {
 };
 
 /// Flies one order in a flyer of its own.
-Episode FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan);
+OrderResult FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan);
 
 /// Flies all plans in one flyer, `per_slot` of them started before every slot while there is room.
-/// The episodes by order.
-std::map<int64_t, Episode> FlyTogether(const World& world, const Experiment& experiment, int capacity,
-                                       const std::vector<FlightPlan>& plans, int per_slot);
+/// The results by order.
+std::map<int64_t, OrderResult> FlyTogether(const World& world, const Experiment& experiment, int capacity,
+                                           const std::vector<FlightPlan>& plans, int per_slot);
 
-/// Whether everything in two episodes is equal, floats by their bits.
+/// Whether everything in two episodes or results is equal, floats by their bits.
 bool SameBits(const Episode& a, const Episode& b);
+bool SameBits(const OrderResult& a, const OrderResult& b);
 
 }  // namespace fresco

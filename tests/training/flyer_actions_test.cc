@@ -39,8 +39,8 @@ class FlyerActions : public ::testing::TestWithParam<ActionVariant> {
       plans.push_back(Plan(index, epsilon));
     }
     std::vector<Episode> episodes;
-    for (auto& [index, episode] : FlyTogether(world_, experiment_, 64, plans, 64)) {
-      episodes.push_back(std::move(episode));
+    for (auto& [index, result] : FlyTogether(world_, experiment_, 64, plans, 64)) {
+      episodes.push_back(std::move(result.episode));
     }
     return episodes;
   }
@@ -53,7 +53,7 @@ TEST_P(FlyerActions, AreTheLiteralArgmaxAmongAllowedOnesOfAGreedyOrder) {
   int decisive = 0;
   for (uint32_t network = 0; network < 60; ++network) {
     const FlightPlan plan = Plan(network, 0, network);
-    const Episode episode = FlyAlone(world_, experiment_, plan);
+    const Episode episode = FlyAlone(world_, experiment_, plan).episode;
     const auto masks = MasksOf(world_, experiment_, episode);
     for (size_t i = 0; i < episode.actions.size(); ++i) {
       const Doubles values = LiteralValues(experiment_, *plan.current, episode.states[i]);
@@ -69,7 +69,7 @@ TEST_P(FlyerActions, AreTheLiteralArgmaxAmongAllowedOnesOfAGreedyOrder) {
 TEST_P(FlyerActions, AreTheFirstAllowedOneWhereAllValuesAreEqual) {
   FlightPlan plan = Plan(0, 0);
   plan.current = std::make_shared<const Vector>(Vector::Zero(plan.current->size()));
-  const Episode episode = FlyAlone(world_, experiment_, plan);
+  const Episode episode = FlyAlone(world_, experiment_, plan).episode;
   const auto masks = MasksOf(world_, experiment_, episode);
   for (size_t i = 0; i < episode.actions.size(); ++i) {
     EXPECT_EQ(episode.actions[i], std::find(masks[i].begin(), masks[i].end(), 1) - masks[i].begin());
@@ -131,8 +131,7 @@ TEST_P(FlyerActions, OfFlyGreedilyAreThoseOfAnyOrderWithEpsilonZero) {
     FlightPlan plan = Plan(network, 0, network);
     plan.target = plan.current;
     plan.order.seed = network;
-    Episode ordered = FlyAlone(world_, experiment_, plan);
-    ordered.order_index = 0;  // FlyGreedily's
+    const Episode ordered = FlyAlone(world_, experiment_, plan).episode;
     EXPECT_TRUE(SameBits(FlyGreedily(world_, experiment_, plan.current), ordered)) << network;
   }
 }

@@ -38,12 +38,13 @@ class FlyerErrors : public ::testing::TestWithParam<ErrorVariant> {
 TEST_P(FlyerErrors, AreYMinusQComputedLiterally) {
   for (int index = 0; index < kOrders; ++index) {
     const FlightPlan plan = Plan(index);
-    const Episode episode = FlyAlone(world_, experiment_, plan);
+    const OrderResult result = FlyAlone(world_, experiment_, plan);
+    const Episode& episode = result.episode;
     const auto masks = MasksOf(world_, experiment_, episode);
-    ASSERT_EQ(episode.td_errors.size(), episode.actions.size());
+    ASSERT_EQ(result.td_errors.size(), episode.actions.size());
     for (int i = 0; i < episode.transitions(); ++i) {
       const Mask& next_mask = masks[static_cast<size_t>(i) + 1];
-      EXPECT_NEAR(episode.td_errors[static_cast<size_t>(i)],
+      EXPECT_NEAR(result.td_errors[static_cast<size_t>(i)],
                   LiteralTdError(experiment_, plan, episode, i, next_mask), 1e-5)
           << index << ", " << i;
     }
@@ -54,11 +55,12 @@ TEST_P(FlyerErrors, OfTerminalTransitionsHaveNoBootstrapWhateverTheOutcome) {
   std::set<Outcome> outcomes;
   for (int index = 0; index < kOrders; ++index) {
     const FlightPlan plan = Plan(index);
-    const Episode episode = FlyAlone(world_, experiment_, plan);
+    const OrderResult result = FlyAlone(world_, experiment_, plan);
+    const Episode& episode = result.episode;
     const State& last = episode.states[episode.states.size() - 2];
     const Doubles values = LiteralValues(experiment_, *plan.current, last);
     const double value = values[static_cast<size_t>(episode.actions.back())];
-    EXPECT_NEAR(episode.td_errors.back(), episode.rewards.back() - value, 1e-5);
+    EXPECT_NEAR(result.td_errors.back(), episode.rewards.back() - value, 1e-5);
     outcomes.insert(episode.outcome);
   }
   const std::set<Outcome> expected =
@@ -69,22 +71,21 @@ TEST_P(FlyerErrors, OfTerminalTransitionsHaveNoBootstrapWhateverTheOutcome) {
 TEST_P(FlyerErrors, AreAllThatTheTargetNetworkChanges) {
   for (int index = 0; index < kOrders; ++index) {
     FlightPlan plan = Plan(index);
-    Episode episode = FlyAlone(world_, experiment_, plan);
+    const OrderResult result = FlyAlone(world_, experiment_, plan);
     plan.target = SampleNetwork(experiment_, 1000);
-    const Episode other = FlyAlone(world_, experiment_, plan);
-    EXPECT_EQ(episode.td_errors.back(), other.td_errors.back());
-    if (episode.transitions() > 1) {
-      EXPECT_NE(episode.td_errors, other.td_errors);
+    const OrderResult other = FlyAlone(world_, experiment_, plan);
+    EXPECT_EQ(result.td_errors.back(), other.td_errors.back());
+    if (result.episode.transitions() > 1) {
+      EXPECT_NE(result.td_errors, other.td_errors);
     }
-    episode.td_errors = other.td_errors;
-    EXPECT_TRUE(SameBits(episode, other));
+    EXPECT_TRUE(SameBits(result.episode, other.episode));
   }
 }
 
 TEST_P(FlyerErrors, BelongToEpisodesThatTheEnvironmentFliesAgain) {
   const auto mask_bytes = static_cast<size_t>(MaskSize(world_));
   for (int index = 0; index < kOrders; ++index) {
-    const Episode episode = FlyAlone(world_, experiment_, Plan(index));
+    const Episode episode = FlyAlone(world_, experiment_, Plan(index)).episode;
     const auto masks = MasksOf(world_, experiment_, episode);
     Environment environment(world_);
     ASSERT_EQ(episode.states.size(), episode.actions.size() + 1);

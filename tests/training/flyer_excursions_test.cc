@@ -51,7 +51,7 @@ TEST_P(FlyerExcursions, FlyStraightToTheDrawnCellAndScheduleGreedily) {
   int cut_short = 0;
   for (int index = 0; index < 200; ++index) {
     const FlightPlan plan{TrainOrder(index, 0.3), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)};
-    const Episode episode = FlyAlone(world, experiment, plan);
+    const Episode episode = FlyAlone(world, experiment, plan).episode;
     const auto masks = MasksOf(world, experiment, episode);
     std::optional<Cell> waypoint;
     for (size_t i = 0; i < episode.actions.size(); ++i) {
@@ -97,7 +97,8 @@ TEST_P(FlyerExcursions, LeadToEveryCellAlike) {
   std::array<int, kMoves> moves{};
   for (int index = 0; index < kOrders; ++index) {
     const FlightPlan plan{TrainOrder(index, 1), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)};
-    ++moves.at(static_cast<size_t>(world.ActionAt(FlyAlone(world, experiment, plan).actions[0]).move));
+    ++moves.at(
+        static_cast<size_t>(world.ActionAt(FlyAlone(world, experiment, plan).episode.actions[0]).move));
   }
   const auto expect_share = [&](Move move, double share) {
     EXPECT_NEAR(moves.at(static_cast<size_t>(move)), kOrders * share,

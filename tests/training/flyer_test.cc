@@ -38,7 +38,7 @@ class FlyerTest : public ::testing::Test {
   }
 
   void ExpectTheBitsOfEachAlone(const std::vector<FlightPlan>& plans,
-                                const std::map<int64_t, Episode>& flown) const {
+                                const std::map<int64_t, OrderResult>& flown) const {
     ASSERT_EQ(flown.size(), plans.size());
     for (const FlightPlan& plan : plans) {
       EXPECT_TRUE(SameBits(flown.at(plan.order.index), FlyAlone(world_, experiment_, plan)))
@@ -104,18 +104,19 @@ TEST_F(FlyerTest, FliesOtherActionsForAnotherSeedAndTheSameAtAnotherIndex) {
   for (int i = 0; i < kOrders; ++i) {
     FlightPlan other = plan;
     other.order.index = i;
-    EXPECT_EQ(FlyAlone(world_, experiment_, other).actions, FlyAlone(world_, experiment_, plan).actions);
+    EXPECT_EQ(FlyAlone(world_, experiment_, other).episode.actions,
+              FlyAlone(world_, experiment_, plan).episode.actions);
     other.order.seed = 1000 + static_cast<uint64_t>(i);
-    flights.insert(FlyAlone(world_, experiment_, other).actions);
+    flights.insert(FlyAlone(world_, experiment_, other).episode.actions);
     other.order.seed = static_cast<uint64_t>(i + 1) << 32;  // the high word counts as well
-    flights.insert(FlyAlone(world_, experiment_, other).actions);
+    flights.insert(FlyAlone(world_, experiment_, other).episode.actions);
   }
   EXPECT_EQ(flights.size(), 2u * kOrders);
 }
 
 TEST_F(FlyerTest, TakesNothingFromTheKindAndTheNumbersOfVersions) {
   for (FlightPlan plan : Plans(5, 1, 1)) {
-    const Episode flown = FlyAlone(world_, experiment_, plan);
+    const OrderResult flown = FlyAlone(world_, experiment_, plan);
     plan.order.kind = OrderKind::kEvaluate;
     plan.order.current_version = 12;
     plan.order.target_version = 4;

@@ -27,15 +27,19 @@ Experiment SmallExperiment(const Settings& settings) {
                            "the small experiment", settings);
 }
 
-Episode FlyOrder(const World& world, const Experiment& experiment, const Order& order,
-                 std::shared_ptr<const Vector> current, std::shared_ptr<const Vector> target) {
+OrderResult FlyOrder(const World& world, const Experiment& experiment, const Order& order,
+                     std::shared_ptr<const Vector> current, std::shared_ptr<const Vector> target) {
   Flyer flyer(world, experiment, 1);
   flyer.Start(order, std::move(current), std::move(target));
-  Episode flown;
+  OrderResult flown;
   while (!flyer.Idle()) {
-    flyer.Step([&](const Order&, const Episode& episode) { flown = episode; });
+    flyer.Step([&](const Order&, OrderResult& result) { flown = std::move(result); });
   }
   return flown;
+}
+
+OrderResult ResultOf(int64_t order_index, const Episode& episode) {
+  return {order_index, 0, episode, std::vector<float>(episode.actions.size(), 0.0f)};
 }
 
 RunResult RunInOneLoop(const Experiment& experiment) {
@@ -56,7 +60,8 @@ RunResult RunInOneLoop(const Experiment& experiment) {
     orders.pop_front();
     trainer.Commit(
         order, FlyOrder(world, experiment, order, versions.at({NetworkKind::kCurrent, order.current_version}),
-                        versions.at({NetworkKind::kTarget, order.target_version})));
+                        versions.at({NetworkKind::kTarget, order.target_version}))
+                   .episode);
   }
   result.weights = trainer.current();
   result.updates = trainer.progress().updates;
@@ -64,20 +69,19 @@ RunResult RunInOneLoop(const Experiment& experiment) {
   return result;
 }
 
-Episode PartOf(const World& world, const Episode& episode, int first, int count) {
-  Episode run;
-  const auto part = [&](const auto& from, auto& to, int extra, int scale) {
+OrderResult PartOf(const World& world, const OrderResult& result, int first, int count) {
+  const Episode& all = result.episode;
+  OrderResult part{result.order_index, first, {}, {}};
+  const auto copy = [&](const auto& from, auto& to, int extra, int scale) {
     to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
   };
-  run.order_index = episode.order_index;
-  run.first_transition = first;
-  run.outcome = first + count == episode.transitions() ? episode.outcome : Outcome::kFlying;
-  part(episode.states, run.states, 1, 1);
-  part(episode.actions, run.actions, 0, 1);
-  part(episode.rewards, run.rewards, 0, 1);
-  part(episode.td_errors, run.td_errors, 0, 1);
-  part(episode.next_masks, run.next_masks, 0, MaskSize(world));
-  return run;
+  part.episode.outcome = first + count == all.transitions() ? all.outcome : Outcome::kFlying;
+  copy(all.states, part.episode.states, 1, 1);
+  copy(all.actions, part.episode.actions, 0, 1);
+  copy(all.rewards, part.episode.rewards, 0, 1);
+  copy(result.td_errors, part.td_errors, 0, 1);
+  copy(all.next_masks, part.episode.next_masks, 0, MaskSize(world));
+  return part;
 }
 
 }  // namespace fresco

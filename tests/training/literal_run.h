@@ -12,9 +12,12 @@ namespace fresco {
 /// A small field (5 x 5 cells, two sensors) and a small network.
 Experiment SmallExperiment(const Settings& settings = {});
 
-/// The whole episode of an order, flown alone.
-Episode FlyOrder(const World& world, const Experiment& experiment, const Order& order,
-                 std::shared_ptr<const Vector> current, std::shared_ptr<const Vector> target);
+/// The complete result of an order, flown alone.
+OrderResult FlyOrder(const World& world, const Experiment& experiment, const Order& order,
+                     std::shared_ptr<const Vector> current, std::shared_ptr<const Vector> target);
+
+/// The result whose episode this is, with temporal-difference errors of 0.
+OrderResult ResultOf(int64_t order_index, const Episode& episode);
 
 /// What a run ends with.
 struct RunResult {
@@ -27,7 +30,7 @@ struct RunResult {
 /// Trainer and flyer in one loop: the reference that every distributed run must equal.
 RunResult RunInOneLoop(const Experiment& experiment);
 
-/// Transitions [first, first + count) of an episode, as a message carries them.
-Episode PartOf(const World& world, const Episode& episode, int first, int count);
+/// Transitions [first, first + count) of a result, as a message carries them.
+OrderResult PartOf(const World& world, const OrderResult& result, int first, int count);
 
 }  // namespace fresco

@@ -32,13 +32,13 @@ TrainerOutput RecordedRun::Output() {
 
 Episode RecordedRun::Fly(const Order& order) const {
   return FlyOrder(world, experiment, order, current_versions.at(static_cast<size_t>(order.current_version)),
-                  target_versions.at(static_cast<size_t>(order.target_version)));
+                  target_versions.at(static_cast<size_t>(order.target_version)))
+      .episode;
 }
 
 void RecordedRun::Commit(Episode episode) {
   constexpr size_t kEndless = 1000;  // orders; a run of 60 episodes has fewer
   FRESCO_CHECK(episodes.size() < kEndless);
-  episode.order_index = next().index;
   const Order order = next();
   trainer.Commit(order, episode);
   episodes.push_back(std::move(episode));

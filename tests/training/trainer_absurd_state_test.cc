@@ -119,9 +119,7 @@ class AbsurdState : public ::testing::Test {
   void GoOn(Trainer& trainer, std::vector<Order>& orders) {
     constexpr size_t kOrders = 30;
     for (size_t next = 0; next < orders.size() && next < kOrders && !trainer.finished(); ++next) {
-      Episode episode = whole_.episodes[next];
-      episode.order_index = orders[next].index;
-      trainer.Commit(Order(orders[next]), episode);
+      trainer.Commit(Order(orders[next]), whole_.episodes[next]);
     }
   }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/uav/flight.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 namespace {
@@ -26,12 +26,13 @@ Scenario RowScenario(int slots, int home_column, const std::vector<int>& sensor_
   return scenario;
 }
 
-void ExpectFlight(const Flight& flight, const std::vector<int>& columns, const std::vector<int>& scheduled) {
+void ExpectFlight(const World& world, const Episode& flight, const std::vector<int>& columns,
+                  const std::vector<int>& scheduled) {
   std::vector<int> flown_columns;
   std::vector<int> flown_scheduled;
-  for (const FlightSlot& slot : flight.slots) {
-    flown_columns.push_back(slot.state.cell.column);
-    flown_scheduled.push_back(slot.action.schedule);
+  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+    flown_columns.push_back(flight.states[slot].cell.column);
+    flown_scheduled.push_back(ActionIn(world, flight, slot).schedule);
   }
   EXPECT_EQ(flown_columns, columns);
   EXPECT_EQ(flown_scheduled, scheduled);
@@ -40,14 +41,14 @@ void ExpectFlight(const Flight& flight, const std::vector<int>& columns, const s
 
 TEST(AoiBaseline, FliesToTheOldestSensorAndHomeInTime) {
   const World world(RowScenario(14, 0, {1, 5}));
-  ExpectFlight(FlyBaseline(world, BaselineKind::kAoi),  //
+  ExpectFlight(world, FlyBaseline(world, BaselineKind::kAoi),  //
                {0, 1, 2, 3, 4, 5, 4, 3, 2, 1, 2, 1, 0, 0}, {0, 1, 0, 0, 0, 2, 0, 0, 0, 1, 0, 1, 0, 0});
 }
 
 // The round 1, 2, 3 ends over sensor 3, with which the next one therefore begins: 3, 2, 1; then 1, 2.
 TEST(DistanceBaseline, FliesInRoundsToTheNearestSensor) {
   const World world(RowScenario(20, 2, {1, 3, 6}));
-  ExpectFlight(FlyBaseline(world, BaselineKind::kDistance),
+  ExpectFlight(world, FlyBaseline(world, BaselineKind::kDistance),
                {2, 1, 2, 3, 4, 5, 6, 6, 5, 4, 3, 2, 1, 1, 2, 3, 4, 3, 2, 2},
                {0, 1, 0, 2, 0, 0, 3, 3, 0, 0, 2, 0, 1, 1, 0, 2, 0, 2, 0, 0});
 }
@@ -63,9 +64,9 @@ TEST(Baselines, FlyAlongTheLongerAxisAndColumnsFirst) {
   const std::vector<Move> expected = {Move::kNorth, Move::kEast,  Move::kNorth,
                                       Move::kEast,  Move::kNorth, Move::kHover};
   for (const BaselineKind kind : kKinds) {
-    const Flight flight = FlyBaseline(world, kind);
+    const Episode flight = FlyBaseline(world, kind);
     for (size_t slot = 0; slot < expected.size(); ++slot) {
-      EXPECT_EQ(flight.slots[slot].action.move, expected[slot]) << slot;
+      EXPECT_EQ(ActionIn(world, flight, slot).move, expected[slot]) << slot;
     }
   }
 }
@@ -75,9 +76,9 @@ TEST(Baselines, ServeTheOldestCoveredSensorOnTheWay) {
   scenario.coverage_radius_m = 1000;
   const World world(scenario);
   for (const BaselineKind kind : kKinds) {
-    const Flight flight = FlyBaseline(world, kind);
+    const Episode flight = FlyBaseline(world, kind);
     for (int slot = 0; slot < 19; ++slot) {
-      EXPECT_EQ(flight.slots[static_cast<size_t>(slot)].action.schedule, slot % 3 + 1);
+      EXPECT_EQ(ActionIn(world, flight, static_cast<size_t>(slot)).schedule, slot % 3 + 1);
     }
   }
 }
@@ -87,9 +88,9 @@ TEST(Baselines, AimAtTheNearestCellOfTheGrid) {
   scenario.sensors = {{62.5, 300, 1}};  // half-way between columns 2 and 3, far north of the grid
   const World world(scenario);
   for (const BaselineKind kind : kKinds) {
-    const Flight flight = FlyBaseline(world, kind);
-    EXPECT_EQ(flight.slots[2].state.cell, (Cell{2, 0}));
-    EXPECT_EQ(flight.slots[12].state.cell, (Cell{2, 0}));
+    const Episode flight = FlyBaseline(world, kind);
+    EXPECT_EQ(flight.states[2].cell, (Cell{2, 0}));
+    EXPECT_EQ(flight.states[12].cell, (Cell{2, 0}));
   }
 }
 
@@ -109,7 +110,8 @@ TEST(Baselines, FlyHomeForGoodOnceAWantedMoveIsOutOfReach) {
   scenario.initial_energy_j = 18 * 112.8758628 + 219.82 + 1;
   const World world(scenario);
   for (const BaselineKind kind : kKinds) {
-    ExpectFlight(FlyBaseline(world, kind), {0, 1, 2, 3, 3, 2, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0},
+    ExpectFlight(world, FlyBaseline(world, kind),
+                 {0, 1, 2, 3, 3, 2, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0},
                  {0, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
   }
 }
@@ -119,7 +121,7 @@ TEST(Baselines, BeginAfreshAfterReset) {
   for (const BaselineKind kind : kKinds) {
     Baseline baseline(kind, world);
     const auto policy = [&](const Environment& environment) { return baseline.Choose(environment); };
-    const Flight first = Fly(world, policy);
+    const Episode first = Fly(world, policy);
     baseline.Reset();
     EXPECT_EQ(Figures(world, Fly(world, policy)).total_aoi, Figures(world, first).total_aoi);
   }

@@ -101,4 +101,9 @@ int Baseline::NextOfRound(Cell cell, int served_now) {
   return nearest;
 }
 
+Episode FlyBaseline(const World& world, BaselineKind kind) {
+  Baseline baseline(kind, world);
+  return Fly(world, [&](const Environment& environment) { return baseline.Choose(environment); });
+}
+
 }  // namespace fresco

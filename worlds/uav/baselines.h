@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "worlds/uav/environment.h"
+#include "worlds/uav/episode.h"
 
 namespace fresco {
 
@@ -38,5 +38,8 @@ class Baseline {
   std::vector<uint8_t> served_;  // by sensor: 1 if served in this round; for kDistance only
   bool returning_ = false;       // on the way to the stop until the episode ends
 };
+
+/// Flies one episode of a baseline.
+Episode FlyBaseline(const World& world, BaselineKind kind);
 
 }  // namespace fresco

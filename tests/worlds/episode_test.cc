@@ -1,5 +1,5 @@
-// Flown episodes are accepted; change one thing and they are not.
-#include "training/episode_check.h"
+// The record of an episode. Episodes as they were flown are accepted; change one thing and they are not.
+#include "worlds/uav/episode.h"
 
 #include <gtest/gtest.h>
 
@@ -7,31 +7,53 @@
 #include <functional>
 #include <limits>
 
-#include "tests/training/literal_run.h"
+#include "tests/worlds/test_scenarios.h"
 
 namespace fresco {
 namespace {
 
-const Settings kWithoutMasks = {{"agent.safe_action_mask", "false"}, {"agent.coverage_mask", "false"}};
+Scenario FiveByFive() {
+  Scenario scenario;
+  scenario.columns = scenario.rows = 5;
+  scenario.slots = 14;
+  scenario.start = {0, 0};
+  scenario.stop = {4, 4};
+  scenario.sensors = {{0, 100, 1}, {75, 25, 2}};
+  scenario.coverage_radius_m = 30;
+  return scenario;
+}
 
 class EpisodeCheck : public ::testing::Test {
  protected:
-  explicit EpisodeCheck(const Settings& settings = {})
-      : experiment_(SmallExperiment(settings)), world_(experiment_.scenario()), episode_(Fly(1, 0.8)) {}
+  explicit EpisodeCheck(MaskOptions mask_options = {true, true})
+      : mask_options_(mask_options), episode_(FlyRandomly(1)) {}
 
-  Episode Fly(uint64_t seed, double epsilon) const {
-    Order order;
-    order.seed = seed;
-    order.epsilon = epsilon;
-    const auto parameters =
-        std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), seed));
-    return FlyOrder(world_, experiment_, order, parameters, parameters);
+  Episode FlyRandomly(uint32_t index) const {
+    RandomStream stream = TestStream(7, index);
+    EpisodeRecorder recorder(world_, mask_options_);
+    while (recorder.episode().outcome == Outcome::kFlying) {
+      recorder.Step(world_.ActionIndex(RandomAction(world_, recorder.environment(), mask_options_, &stream)));
+    }
+    return recorder.Release();
   }
 
   bool Accepts(const Episode& episode) const {
     Episode flown;
-    return FlyActions(world_, experiment_.mask_options(), episode.actions, flown) &&
-           flown.transitions() == episode.transitions() && IsPartOf(episode, flown);
+    return FlyActions(world_, mask_options_, episode.actions, flown) &&
+           flown.transitions() == episode.transitions() && IsPartOf(episode, 0, flown);
+  }
+
+  Episode PartOf(int first, int count) const {
+    Episode part;
+    const auto copy = [&](const auto& from, auto& to, int extra, int scale) {
+      to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
+    };
+    part.outcome = first + count == episode_.transitions() ? episode_.outcome : Outcome::kFlying;
+    copy(episode_.states, part.states, 1, 1);
+    copy(episode_.actions, part.actions, 0, 1);
+    copy(episode_.rewards, part.rewards, 0, 1);
+    copy(episode_.next_masks, part.next_masks, 0, MaskSize(world_));
+    return part;
   }
 
   /// `change` is applied to a copy of the flown episode.
@@ -41,21 +63,45 @@ class EpisodeCheck : public ::testing::Test {
     EXPECT_FALSE(Accepts(changed)) << what << " " << where;
   }
 
-  Experiment experiment_;
-  World world_;
+  World world_{FiveByFive()};
+  MaskOptions mask_options_;
   Episode episode_;
 };
 
 class EpisodeCheckWithoutMasks : public EpisodeCheck {
  protected:
-  EpisodeCheckWithoutMasks() : EpisodeCheck(kWithoutMasks) {}
+  EpisodeCheckWithoutMasks() : EpisodeCheck(MaskOptions{}) {}
 };
 
+TEST_F(EpisodeCheck, RecordsWhatTheEnvironmentSaysInEverySlot) {
+  for (uint32_t index = 0; index < 40; ++index) {
+    const Episode episode = FlyRandomly(index);
+    Environment environment(world_);
+    std::vector<uint8_t> mask(static_cast<size_t>(world_.actions()));
+    std::vector<uint8_t> masks;
+    ASSERT_EQ(episode.states.size(), episode.actions.size() + 1);
+    for (size_t i = 0; i < episode.actions.size(); ++i) {
+      EXPECT_EQ(episode.states[i].cell, environment.state().cell);
+      EXPECT_EQ(episode.states[i].aoi, environment.state().aoi);
+      EXPECT_EQ(EnergyIn(world_, episode, i), environment.remaining_energy_j());
+      EXPECT_EQ(ActionIn(world_, episode, i), world_.ActionAt(episode.actions[i]));
+      const StepResult result = environment.Step(world_.ActionAt(episode.actions[i]));
+      EXPECT_EQ(episode.rewards[i], static_cast<float>(result.reward));
+      environment.WriteMask(mask_options_, mask);
+      AppendMask(mask, masks);
+    }
+    EXPECT_EQ(episode.next_masks, masks);
+    EXPECT_EQ(episode.outcome, environment.outcome());
+    EXPECT_EQ(ResidualEnergy(world_, episode), environment.remaining_energy_j());
+    EXPECT_EQ(ActionIn(world_, episode, episode.actions.size()), Action{});
+  }
+}
+
 TEST_F(EpisodeCheck, AcceptsFlownEpisodes) {
-  for (uint64_t seed = 0; seed < 40; ++seed) {
-    const Episode episode = Fly(seed, static_cast<double>(seed % 3) / 2);
+  for (uint32_t index = 0; index < 40; ++index) {
+    const Episode episode = FlyRandomly(index);
     EXPECT_EQ(episode.outcome, Outcome::kArrived);
-    EXPECT_TRUE(Accepts(episode)) << seed;
+    EXPECT_TRUE(Accepts(episode)) << index;
   }
 }
 
@@ -63,21 +109,21 @@ TEST_F(EpisodeCheck, AcceptsEveryPartOfAnEpisodeAtItsPlaceAlone) {
   const int transitions = episode_.transitions();
   for (int first = 0; first < transitions; ++first) {
     for (int count = 1; first + count <= transitions; ++count) {
-      Episode part = PartOf(world_, episode_, first, count);
-      EXPECT_TRUE(IsPartOf(part, episode_)) << first << " " << count;
-      part.first_transition += first + count < transitions ? 1 : -1;
-      EXPECT_FALSE(IsPartOf(part, episode_)) << first << " " << count;
+      const Episode part = PartOf(first, count);
+      const int elsewhere = first + (first + count < transitions ? 1 : -1);
+      EXPECT_TRUE(IsPartOf(part, first, episode_)) << first << " " << count;
+      EXPECT_FALSE(IsPartOf(part, elsewhere, episode_)) << first << " " << count;
     }
   }
-  EXPECT_FALSE(IsPartOf(Episode{}, episode_));
+  EXPECT_FALSE(IsPartOf(Episode{}, 0, episode_));
 }
 
 TEST_F(EpisodeCheckWithoutMasks, AcceptsFlownEpisodesThatEndEarly) {
   int early = 0;
-  for (uint64_t seed = 0; seed < 40; ++seed) {
-    const Episode episode = Fly(seed, static_cast<double>(seed % 3) / 2);
+  for (uint32_t index = 0; index < 40; ++index) {
+    const Episode episode = FlyRandomly(index);
     early += episode.outcome == Outcome::kOutOfTime ? 1 : 0;
-    EXPECT_TRUE(Accepts(episode)) << seed;
+    EXPECT_TRUE(Accepts(episode)) << index;
   }
   EXPECT_GT(early, 20);
 }
@@ -159,7 +205,6 @@ TEST_F(EpisodeCheck, RefusesAnEpisodeWithoutItsEndOrItsBeginning) {
     episode.states.pop_back();
     episode.actions.pop_back();
     episode.rewards.pop_back();
-    episode.td_errors.pop_back();
     episode.next_masks.resize(episode.next_masks.size() - static_cast<size_t>(MaskSize(world_)));
     episode.outcome = outcome;
   };
@@ -170,7 +215,6 @@ TEST_F(EpisodeCheck, RefusesAnEpisodeWithoutItsEndOrItsBeginning) {
         episode.states.erase(episode.states.begin());
         episode.actions.erase(episode.actions.begin());
         episode.rewards.erase(episode.rewards.begin());
-        episode.td_errors.erase(episode.td_errors.begin());
         episode.next_masks.erase(episode.next_masks.begin(), episode.next_masks.begin() + MaskSize(world_));
       },
       "without beginning", 0);
@@ -183,7 +227,6 @@ TEST_F(EpisodeCheck, RefusesATransitionAfterTheEnd) {
         episode.states.push_back(episode.states.back());
         episode.actions.push_back(static_cast<int16_t>(world_.ActionIndex({Move::kHover, 0})));
         episode.rewards.push_back(episode.rewards.back());
-        episode.td_errors.push_back(0);
         episode.next_masks.resize(episode.next_masks.size() + static_cast<size_t>(MaskSize(world_)), 0xff);
       },
       "after the end", 0);

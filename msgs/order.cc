@@ -1,9 +1,9 @@
+#include "msgs/order.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
-#include "core/memory_need.h"
-#include "msgs/episode.h"
 
 namespace fresco {
 namespace {
@@ -30,22 +30,23 @@ void AddState(const State& state, transitions_t& message) {
   message.aoi.push_back(state.aoi);
 }
 
-void AddTransition(const Episode& episode, int transition, transitions_t& message) {
+void AddTransition(const OrderResult& result, int transition, transitions_t& message) {
   const size_t i = static_cast<size_t>(transition);
-  const auto mask = episode.next_masks.begin() + transition * message.mask_size;
-  message.action.push_back(episode.actions[i]);
-  message.reward.push_back(episode.rewards[i]);
-  message.td_error.push_back(episode.td_errors[i]);
+  const auto mask = result.episode.next_masks.begin() + transition * message.mask_size;
+  message.action.push_back(result.episode.actions[i]);
+  message.reward.push_back(result.episode.rewards[i]);
+  message.td_error.push_back(result.td_errors[i]);
   message.next_mask.emplace_back(mask, mask + message.mask_size);
 }
 
-transitions_t MessageOf(const World& world, const Episode& episode, int first, int count) {
+transitions_t MessageOf(const World& world, const OrderResult& result, int first, int count) {
+  const Episode& episode = result.episode;
   transitions_t message{};
   message.transition_count = count;
   message.state_count = count + 1;
   message.sensor_count = world.sensors();
   message.mask_size = MaskSize(world);
-  message.order_index = episode.order_index;
+  message.order_index = result.order_index;
   message.first_transition = first;
   message.outcome =
       static_cast<int8_t>(first + count == episode.transitions() ? episode.outcome : Outcome::kFlying);
@@ -53,7 +54,7 @@ transitions_t MessageOf(const World& world, const Episode& episode, int first, i
     AddState(episode.states[static_cast<size_t>(i)], message);
   }
   for (int i = first; i < first + count; ++i) {
-    AddTransition(episode, i, message);
+    AddTransition(result, i, message);
   }
   return message;
 }
@@ -77,12 +78,12 @@ bool ReadState(const World& world, const transitions_t& message, size_t i, State
                      [&](int16_t aoi) { return aoi >= 1 && aoi <= world.scenario().slots; });
 }
 
-bool ReadTransition(const World& world, const transitions_t& message, size_t i, Episode& run) {
-  run.actions.push_back(message.action[i]);
-  run.rewards.push_back(message.reward[i]);
-  run.td_errors.push_back(message.td_error[i]);
+bool ReadTransition(const World& world, const transitions_t& message, size_t i, OrderResult& result) {
+  result.episode.actions.push_back(message.action[i]);
+  result.episode.rewards.push_back(message.reward[i]);
+  result.td_errors.push_back(message.td_error[i]);
   for (const auto byte : message.next_mask[i]) {
-    run.next_masks.push_back(static_cast<uint8_t>(byte));
+    result.episode.next_masks.push_back(static_cast<uint8_t>(byte));
   }
   return message.action[i] >= 0 && message.action[i] < world.actions() && std::isfinite(message.reward[i]) &&
          std::isfinite(message.td_error[i]);
@@ -90,37 +91,26 @@ bool ReadTransition(const World& world, const transitions_t& message, size_t i, 
 
 }  // namespace
 
-int64_t LongestEpisodeBytes(const World& world) {
-  const auto values = [](const auto& vector) { return static_cast<int64_t>(sizeof(vector[0])); };
-  const Episode episode;
-  const State state;
-  const int64_t transitions = world.maximum_transitions();
-  const int64_t state_bytes = values(episode.states) + HeapBytes(world.sensors() * values(state.aoi));
-  const int64_t transition_bytes = values(episode.actions) + values(episode.rewards) +
-                                   values(episode.td_errors) + MaskSize(world) * values(episode.next_masks);
-  return static_cast<int64_t>(sizeof(Episode)) + (transitions + 1) * state_bytes +
-         transitions * transition_bytes;
+order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
+  order_t message{};
+  message.index = order.index;
+  message.actor_id = actor_id;
+  message.attempt = attempt;
+  message.kind = static_cast<int8_t>(order.kind);
+  message.epsilon = order.epsilon;
+  message.seed = static_cast<int64_t>(order.seed);
+  message.current_version = order.current_version;
+  message.target_version = order.target_version;
+  return message;
 }
 
-void Episode::Clear() {
-  order_index = 0;
-  first_transition = 0;
-  outcome = Outcome::kFlying;
-  states.clear();
-  actions.clear();
-  rewards.clear();
-  td_errors.clear();
-  next_masks.clear();
-}
-
-void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed) {
-  const size_t begin = packed.size();
-  packed.resize(begin + (mask.size() + 7) / 8, 0);
-  for (size_t action = 0; action < mask.size(); ++action) {
-    if (mask[action] != 0) {
-      packed[begin + action / 8] = static_cast<uint8_t>(packed[begin + action / 8] | (1u << (action % 8)));
-    }
-  }
+bool FromWire(const order_t& message, Order& order) {
+  order = {message.index,           static_cast<OrderKind>(message.kind),
+           message.epsilon,         static_cast<uint64_t>(message.seed),
+           message.current_version, message.target_version};
+  return message.index >= 0 && message.index < (int64_t{1} << 32) &&
+         (message.kind == 0 || message.kind == 1) && message.epsilon >= 0 && message.epsilon <= 1 &&
+         message.current_version >= 0 && message.target_version >= 0 && message.attempt >= 0;
 }
 
 int TransitionsPerMessage(int sensors) {
@@ -128,32 +118,39 @@ int TransitionsPerMessage(int sensors) {
   return FittingTransitions(sensors);
 }
 
-void SplitEpisode(const World& world, const Episode& episode, int64_t actor_id,
-                  const std::function<void(const transitions_t&)>& send) {
+void SplitResult(const World& world, const OrderResult& result, int64_t actor_id,
+                 const std::function<void(const transitions_t&)>& send) {
   const int step = TransitionsPerMessage(world.sensors());
-  for (int first = 0; first < episode.transitions(); first += step) {
-    transitions_t message = MessageOf(world, episode, first, std::min(step, episode.transitions() - first));
+  const int transitions = result.episode.transitions();
+  for (int first = 0; first < transitions; first += step) {
+    transitions_t message = MessageOf(world, result, first, std::min(step, transitions - first));
     message.actor_id = actor_id;
     send(message);
   }
 }
 
-bool ToEpisodeRun(const World& world, const transitions_t& message, Episode& run) {
-  run.Clear();
+bool FromWire(const World& world, const transitions_t& message, OrderResult& result) {
+  result.episode.Clear();
+  result.td_errors.clear();
   if (!SizesMatch(world, message)) {
     return false;
   }
-  run.order_index = message.order_index;
-  run.first_transition = message.first_transition;
-  run.outcome = static_cast<Outcome>(message.outcome);
+  result.order_index = message.order_index;
+  result.first_transition = message.first_transition;
+  result.episode.outcome = static_cast<Outcome>(message.outcome);
   bool valid = true;
   for (size_t i = 0; valid && i < static_cast<size_t>(message.state_count); ++i) {
-    valid = ReadState(world, message, i, run.states.emplace_back());
+    valid = ReadState(world, message, i, result.episode.states.emplace_back());
   }
   for (size_t i = 0; valid && i < static_cast<size_t>(message.transition_count); ++i) {
-    valid = ReadTransition(world, message, i, run);
+    valid = ReadTransition(world, message, i, result);
   }
   return valid;
+}
+
+int64_t LongestResultBytes(const World& world) {
+  const auto td_errors = world.maximum_transitions() * static_cast<int64_t>(sizeof(float));
+  return LongestEpisodeBytes(world) + static_cast<int64_t>(sizeof(OrderResult) - sizeof(Episode)) + td_errors;
 }
 
 }  // namespace fresco
