@@ -197,7 +197,7 @@ class FigureWriter {
 
   StudyResult WithoutTraining(Figure figure, double budget_j) const {
     const World world(WithBudget(base_, figure, budget_j).scenario());
-    const auto result_of = [&](const Flight& flight) {
+    const auto result_of = [&](const Episode& flight) {
       const AoiFigures figures = Figures(world, flight);
       return PolicyResult{figures.average_aoi, figures.total_aoi};
     };
