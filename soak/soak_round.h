@@ -10,8 +10,7 @@
 
 #include "bus/authenticated_bus.h"
 #include "msgs/experiment.h"
-#include "soak/fault_injector.h"
-#include "soak/fault_plan.h"
+#include "soak/faults.h"
 #include "soak/soak_checks.h"
 
 namespace fresco {

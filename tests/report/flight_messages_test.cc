@@ -1,4 +1,4 @@
-// What `fresco fly` publishes, against what `fresco evaluate` prints of the same flight.
+// Compares what `fresco fly` publishes with what `fresco evaluate` prints of the same flight.
 #include "msgs/flight_messages.h"
 
 #include <gtest/gtest.h>

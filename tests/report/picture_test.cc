@@ -1,4 +1,4 @@
-// gnuplot as a process, and the pictures that it draws.
+// Runs gnuplot, and checks the pictures that it draws.
 #include "report/picture.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace fresco {
 namespace {
 
-/// PATH is this folder for a while.
+/// Sets PATH to a folder until its end.
 class PathGuard {
  public:
   explicit PathGuard(const std::filesystem::path& path) : before_(std::getenv("PATH")) {

@@ -39,7 +39,8 @@ std::string ReadText(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// A line a slot: flight, slot, column, row, move, scheduled, collected, then the AoI of every sensor.
+/// Returns a line for each slot: flight, slot, column, row, move, scheduled, collected, then the AoI of every
+/// sensor.
 std::string Csv(const World& world, const std::vector<ReportFlight>& flights) {
   std::string csv;
   for (const ReportFlight& flight : flights) {

@@ -1,5 +1,5 @@
-// What a soak does to a run follows from the seed and the round.
-#include "soak/fault_plan.h"
+// The faults of a soak depend on the seed and the round only.
+#include "soak/faults.h"
 
 #include <gtest/gtest.h>
 
