@@ -27,10 +27,23 @@ target_compile_options(fresco_warnings INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
   $<$<BOOL:${FRESCO_WARNINGS_AS_ERRORS}>:-Werror>)
 
+# Most of the compiler's time is the optimiser's. So what no run spends time in, the command line, the reports and
+# the tests, is compiled with little optimisation; with a sanitizer it and most rooms are compiled without any.
+add_library(fresco_quick_to_compile INTERFACE)
+target_compile_options(fresco_quick_to_compile INTERFACE
+  $<$<NOT:$<CONFIG:Debug>>:$<IF:$<BOOL:${FRESCO_SANITIZE}>,-O0,-O1>>
+  # gcc 12 reports code of std::string at -O1, which is sound
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict>)
+# Rooms that tests and fuzzing spend their time in, so they have the optimiser with a sanitizer too.
+set(FRESCO_ROOMS_OPTIMISED_WITH_SANITIZER fresco_nn fresco_worlds fresco_planner fresco_bus fresco_msgs fresco_training)
+
 # fresco_library(name sources... ): a folder's library, compiled with the common options.
 function(fresco_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC fresco_compile_options PRIVATE fresco_warnings)
+  if(FRESCO_SANITIZE AND NOT name IN_LIST FRESCO_ROOMS_OPTIMISED_WITH_SANITIZER)
+    target_link_libraries(${name} PRIVATE fresco_quick_to_compile)
+  endif()
 endfunction()
 
 # fresco_executable(name sources...)
@@ -39,19 +52,9 @@ function(fresco_executable name)
   target_link_libraries(${name} PRIVATE fresco_compile_options fresco_warnings)
 endfunction()
 
-# Sources that no run spends time in are compiled with little optimisation, since that takes most of the
-# compiler's time: the command line and the reports, and tests (with a sanitizer without any).
-add_library(fresco_quick_to_compile INTERFACE)
-target_compile_options(fresco_quick_to_compile INTERFACE $<$<NOT:$<CONFIG:Debug>>:-O1>
-  # gcc 12 reports code of std::string at -O1, which is sound
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict>)
-
 add_library(fresco_test_options INTERFACE)
-target_compile_options(fresco_test_options INTERFACE $<$<BOOL:${FRESCO_SANITIZE}>:-O0>)
-if(NOT FRESCO_SANITIZE)
-  target_link_libraries(fresco_test_options INTERFACE fresco_quick_to_compile)
-endif()
-target_link_libraries(fresco_test_options INTERFACE fresco_compile_options fresco_warnings)
+target_link_libraries(fresco_test_options INTERFACE fresco_quick_to_compile fresco_compile_options fresco_warnings)
+target_compile_definitions(fresco_test_options INTERFACE $<$<BOOL:${FRESCO_SANITIZE}>:FRESCO_SANITIZED>)
 
 # fresco_test_headers(name LIBRARIES ... HEADERS ...): headers that are compiled once for many tests.
 function(fresco_test_headers name)

@@ -75,8 +75,8 @@ std::vector<int64_t> Flyer::OrderIndices() const {
 
 void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
   FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
-  flights_.push_back(std::make_unique<Flight>(order, std::move(current), std::move(target),
-                                              EpisodeRecorder(*world_, mask_options_)));
+  flights_.push_back(std::make_unique<Flight>(
+      Flight{order, std::move(current), std::move(target), EpisodeRecorder(*world_, mask_options_)}));
 }
 
 void Flyer::Step(const std::function<void(const Order&, OrderResult&)>& finished) {

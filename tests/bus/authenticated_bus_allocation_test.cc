@@ -7,7 +7,7 @@
 #include "bus/authenticated_bus.h"
 #include "tests/support/allocation_count.h"
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef FRESCO_SANITIZED
 
 namespace fresco {
 namespace {

@@ -1,6 +1,9 @@
 // Decode of every message type. The first byte chooses the type and whether the rest has a trailer of its
 // own or gets the right one here. What decodes must encode to the same bytes again, and looks the same to
 // those who only peek; what nobody signed is not authentic.
+#include <array>
+#include <tuple>
+
 #include "bus/authenticated_bus.h"
 #include "core/error.h"
 #include "msgs/message_decoder.h"
@@ -74,10 +77,14 @@ void CheckOne(const std::vector<std::byte>& bytes) {
   CheckPeeked(bytes, message);
 }
 
-constexpr void (*kChecks[])(const std::vector<std::byte>&) = {
-    CheckOne<run_t>,          CheckOne<orders_t>,         CheckOne<transitions_t>, CheckOne<weights_t>,
-    CheckOne<actor_status_t>, CheckOne<learner_status_t>, CheckOne<scenario_t>,    CheckOne<flight_t>,
-};
+using Check = void (*)(const std::vector<std::byte>&);
+
+template <class... Message>
+constexpr std::array<Check, sizeof...(Message)> ChecksOf(const std::tuple<Message...>*) {
+  return {CheckOne<Message>...};
+}
+
+constexpr auto kChecks = ChecksOf(static_cast<const MessageTypes*>(nullptr));
 
 }  // namespace
 }  // namespace fresco

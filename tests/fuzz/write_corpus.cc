@@ -55,15 +55,8 @@ void AddMessages(RandomStream& stream, uint8_t type, Corpus& corpus) {
 void WriteWire(const std::filesystem::path& directory) {
   Corpus corpus(directory, "wire_fuzz");
   RandomStream stream(1, RandomPurpose::kTest, 0, 0);
-  uint8_t type = 0;  // in wire_fuzz.cc's order
-  AddMessages<run_t>(stream, type++, corpus);
-  AddMessages<orders_t>(stream, type++, corpus);
-  AddMessages<transitions_t>(stream, type++, corpus);
-  AddMessages<weights_t>(stream, type++, corpus);
-  AddMessages<actor_status_t>(stream, type++, corpus);
-  AddMessages<learner_status_t>(stream, type++, corpus);
-  AddMessages<scenario_t>(stream, type++, corpus);
-  AddMessages<flight_t>(stream, type++, corpus);
+  uint8_t type = 0;
+  ForEachMessageType([&]<class Message>(const Message&) { AddMessages<Message>(stream, type++, corpus); });
 }
 
 void WriteTransitions(const std::filesystem::path& directory) {

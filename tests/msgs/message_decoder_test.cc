@@ -38,14 +38,7 @@ void ExpectDecoded(MessageDecoder& decoder) {
 
 TEST(MessageDecoder, HandsOutEveryTypeWithAndWithoutATagBehindIt) {
   MessageDecoder decoder;
-  ExpectDecoded<run_t>(decoder);
-  ExpectDecoded<orders_t>(decoder);
-  ExpectDecoded<transitions_t>(decoder);
-  ExpectDecoded<weights_t>(decoder);
-  ExpectDecoded<actor_status_t>(decoder);
-  ExpectDecoded<learner_status_t>(decoder);
-  ExpectDecoded<scenario_t>(decoder);
-  ExpectDecoded<flight_t>(decoder);
+  ForEachMessageType([&]<class Message>(const Message&) { ExpectDecoded<Message>(decoder); });
 }
 
 TEST(MessageDecoder, TellsForeignMessagesFromDamagedOnes) {

@@ -39,18 +39,14 @@ std::vector<std::string> FieldsVisited(const Message& message) {
 }
 
 template <class Message>
-void ExpectTheFieldsOfTheFile() {
-  EXPECT_EQ(FieldsVisited(Message{}), FieldsInFile(Message::getTypeName()));
-}
-
-template <class... Message>
-void ExpectAll(const std::tuple<Message...>*) {
-  (ExpectTheFieldsOfTheFile<Message>(), ...);
+void ExpectTheFieldsOfTheFile(const Message& message) {
+  EXPECT_EQ(FieldsVisited(message), FieldsInFile(Message::getTypeName()));
 }
 
 TEST(ForEachField, VisitsTheFieldsOfEveryTypeInTheOrderOfItsFile) {
-  ExpectAll(static_cast<const MessageTypes*>(nullptr));
-  ExpectAll(static_cast<const std::tuple<order_t, chunk_range_t>*>(nullptr));
+  ForEachMessageType([](const auto& message) { ExpectTheFieldsOfTheFile(message); });
+  ExpectTheFieldsOfTheFile(order_t{});
+  ExpectTheFieldsOfTheFile(chunk_range_t{});
 }
 
 /// Bytes of a value in LCM's encoding.
@@ -80,34 +76,19 @@ void ExpectSize(RandomStream& stream) {
   EXPECT_EQ(kFingerprintBytes + EncodedBytes(message), static_cast<size_t>(message.getEncodedSize()));
 }
 
-template <class... Message>
-void ExpectSizes(const std::tuple<Message...>*) {
+TEST(ForEachField, HandsOutAsManyBytesAsLcmEncodes) {
   RandomStream stream(6, RandomPurpose::kTest, 0, 0);
   for (int i = 0; i < 10; ++i) {
-    (ExpectSize<Message>(stream), ...);
+    ForEachMessageType([&]<class Message>(const Message&) { ExpectSize<Message>(stream); });
   }
 }
 
-TEST(ForEachField, HandsOutAsManyBytesAsLcmEncodes) {
-  ExpectSizes(static_cast<const MessageTypes*>(nullptr));
-}
-
-/// Where the first text or array begins: the size of a message in which all are empty.
-template <class Message>
-void ExpectFixedBytes() {
-  constexpr size_t kEmptyTextBytes = sizeof(int32_t) + 1;
-  EXPECT_EQ(Description<Message>::kFixedBytes + Description<Message>::kTexts * kEmptyTextBytes,
-            static_cast<size_t>(Message{}.getEncodedSize()))
-      << Message::getTypeName();
-}
-
-template <class... Message>
-void ExpectFixedBytesOfAll(const std::tuple<Message...>*) {
-  (ExpectFixedBytes<Message>(), ...);
-}
-
 TEST(Description, KnowsTheBytesBeforeTheFirstTextOrArray) {
-  ExpectFixedBytesOfAll(static_cast<const MessageTypes*>(nullptr));
+  ForEachMessageType([]<class Message>(const Message& empty) {
+    constexpr size_t kEmptyTexts = Description<Message>::kTexts * (sizeof(int32_t) + 1);
+    EXPECT_EQ(Description<Message>::kFixedBytes + kEmptyTexts, static_cast<size_t>(empty.getEncodedSize()))
+        << Message::getTypeName();
+  });
 }
 
 TEST(Description, KnowsWhereLcmWritesAField) {

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 namespace fresco {
 namespace {
@@ -24,9 +25,21 @@ void Fill(RandomStream& stream, std::vector<T>& values, int count) {
   }
 }
 
-template <class... T>
-void FillAll(RandomStream& stream, T&... values) {
-  (Fill(stream, values), ...);
+/// Fills every number that is no array, and so the counts too.
+template <class Message>
+void FillNumbers(RandomStream& stream, Message& message) {
+  ForEachField(message, [&]<class T>(const char*, const T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      Fill(stream, const_cast<T&>(value));
+    }
+  });
+}
+
+template <class Message>
+Message WithNumbers(RandomStream& stream) {
+  Message message{};
+  FillNumbers(stream, message);
+  return message;
 }
 
 std::string RandomText(RandomStream& stream, int length) {
@@ -41,17 +54,10 @@ int Below(RandomStream& stream, int bound) {
   return static_cast<int>(stream.NextBelow(static_cast<uint32_t>(bound)));
 }
 
-template <class Message>
-Message Identified(RandomStream& stream) {
-  Message message{};
-  FillAll(stream, message.utime, message.run_id, message.config_hash);
-  return message;
-}
-
 std::vector<chunk_range_t> RangesOf(RandomStream& stream, int count) {
   std::vector<chunk_range_t> ranges(static_cast<size_t>(count));
   for (chunk_range_t& range : ranges) {
-    FillAll(stream, range.network, range.version, range.first, range.count);
+    FillNumbers(stream, range);
   }
   return ranges;
 }
@@ -59,38 +65,31 @@ std::vector<chunk_range_t> RangesOf(RandomStream& stream, int count) {
 }  // namespace
 
 orders_t OrdersOf(RandomStream& stream, int orders) {
-  auto message = Identified<orders_t>(stream);
-  Fill(stream, message.committed_orders);
+  auto message = WithNumbers<orders_t>(stream);
   message.order_count = orders;
   message.orders.resize(static_cast<size_t>(orders));
   for (order_t& order : message.orders) {
-    FillAll(stream, order.index, order.actor_id, order.attempt, order.kind, order.epsilon, order.seed,
-            order.current_version, order.target_version);
+    FillNumbers(stream, order);
   }
   return message;
 }
 
 weights_t WeightsOf(RandomStream& stream, int values) {
-  auto message = Identified<weights_t>(stream);
-  FillAll(stream, message.version, message.offset, message.total_values, message.crc32c);
+  auto message = WithNumbers<weights_t>(stream);
   message.value_count = values;
   Fill(stream, message.values, values);
   return message;
 }
 
 run_t RunOf(RandomStream& stream, int part_bytes) {
-  auto message = Identified<run_t>(stream);
-  FillAll(stream, message.part_index, message.part_count, message.protocol_version,
-          message.arithmetic_fingerprint, message.inputs, message.outputs, message.parameters,
-          message.values_per_chunk, message.current_version, message.target_version, message.finished);
+  auto message = WithNumbers<run_t>(stream);
   message.part_size = part_bytes;
   Fill(stream, message.part, part_bytes);
   return message;
 }
 
 transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors) {
-  auto message = Identified<transitions_t>(stream);
-  FillAll(stream, message.order_index, message.actor_id, message.first_transition, message.outcome);
+  auto message = WithNumbers<transitions_t>(stream);
   message.transition_count = transitions;
   message.state_count = transitions + 1;
   message.sensor_count = sensors;
@@ -114,11 +113,7 @@ transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors) 
 }
 
 actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int host_length) {
-  auto message = Identified<actor_status_t>(stream);
-  FillAll(stream, message.actor_id, message.sequence, message.pid, message.capacity, message.open_orders,
-          message.oldest_open_order, message.weights_latency_ms, message.arithmetic_fingerprint,
-          message.episodes, message.transitions, message.resent_episodes, message.rejected_messages,
-          message.transitions_per_s);
+  auto message = WithNumbers<actor_status_t>(stream);
   message.host = RandomText(stream, host_length);
   message.held_count = held;
   message.missing_count = missing;
@@ -128,24 +123,14 @@ actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int ho
 }
 
 learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length) {
-  auto message = Identified<learner_status_t>(stream);
-  FillAll(stream, message.committed_orders, message.episodes, message.total_episodes, message.transitions,
-          message.updates, message.replay_size, message.current_version, message.target_version,
-          message.orders_in_flight, message.actors, message.epsilon, message.learning_rate, message.loss,
-          message.average_aoi, message.best_average_aoi, message.arrived, message.lower_bound_average_aoi,
-          message.optimum_proved, message.gap_percent, message.staleness_updates, message.transitions_per_s,
-          message.updates_per_s, message.received, message.duplicate, message.rejected, message.lost,
-          message.reordered_episodes);
+  auto message = WithNumbers<learner_status_t>(stream);
   message.waiting_for = RandomText(stream, waiting_for_length);
   message.warning = RandomText(stream, warning_length);
   return message;
 }
 
 scenario_t ScenarioOf(RandomStream& stream, int sensors) {
-  auto message = Identified<scenario_t>(stream);
-  FillAll(stream, message.first_sensor, message.total_sensors, message.columns, message.rows, message.cell_m,
-          message.start_column, message.start_row, message.stop_column, message.stop_row, message.slots,
-          message.slot_s, message.coverage_radius_m, message.initial_energy_j, message.maximum_aoi);
+  auto message = WithNumbers<scenario_t>(stream);
   message.sensor_count = sensors;
   for (auto* values : {&message.x_m, &message.y_m, &message.weight}) {
     Fill(stream, *values, sensors);
@@ -154,10 +139,7 @@ scenario_t ScenarioOf(RandomStream& stream, int sensors) {
 }
 
 flight_t FlightOf(RandomStream& stream, int sensors, int policy_length) {
-  auto message = Identified<flight_t>(stream);
-  FillAll(stream, message.flight, message.slot, message.slots, message.column, message.row,
-          message.time_margin, message.energy_margin_j, message.remaining_energy_j, message.move,
-          message.scheduled, message.reward, message.total_aoi, message.outcome);
+  auto message = WithNumbers<flight_t>(stream);
   message.policy = RandomText(stream, policy_length);
   message.sensor_count = sensors;
   Fill(stream, message.aoi, sensors);
@@ -205,6 +187,37 @@ OrderResult RandomResult(const World& world, int64_t order_index, MaskOptions ma
   }
   result.episode = recorder.Release();
   return result;
+}
+
+void MakeLargest(RandomStream& stream, orders_t& message) {
+  message = OrdersOf(stream, kMaximumOrdersPerMessage);
+}
+void MakeLargest(RandomStream& stream, weights_t& message) {
+  message = WeightsOf(stream, kValuesPerChunk);
+}
+void MakeLargest(RandomStream& stream, run_t& message) {
+  message = RunOf(stream, kMaximumPartBytes);
+}
+void MakeLargest(RandomStream& stream, transitions_t& message) {
+  constexpr int kSensors = 3;
+  int transitions = 1;
+  while (static_cast<size_t>(TransitionsOf(stream, transitions + 1, kSensors).getEncodedSize()) <=
+         kMaximumEncodedBytes) {
+    ++transitions;
+  }
+  message = TransitionsOf(stream, transitions, kSensors);
+}
+void MakeLargest(RandomStream& stream, actor_status_t& message) {
+  message = ActorStatusOf(stream, kMaximumHeldVersions, kMaximumMissingRanges, kMaximumHostBytes);
+}
+void MakeLargest(RandomStream& stream, learner_status_t& message) {
+  message = LearnerStatusOf(stream, kMaximumWaitingForBytes, kMaximumWarningBytes);
+}
+void MakeLargest(RandomStream& stream, scenario_t& message) {
+  message = ScenarioOf(stream, kMaximumSensorsPerScenario);
+}
+void MakeLargest(RandomStream& stream, flight_t& message) {
+  message = FlightOf(stream, flight_t::MAXIMUM_SENSOR_COUNT, kMaximumPolicyBytes);
 }
 
 }  // namespace fresco

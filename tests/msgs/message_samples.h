@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
 #include <vector>
 
+#include "core/bytes.h"
 #include "core/random.h"
 #include "msgs/order.h"
 
@@ -18,6 +22,24 @@ void Randomise(RandomStream& stream, actor_status_t& message);
 void Randomise(RandomStream& stream, learner_status_t& message);
 void Randomise(RandomStream& stream, scenario_t& message);
 void Randomise(RandomStream& stream, flight_t& message);
+
+/// A message with random content and every array and text as long as the codecs allow; transitions_t, whose
+/// arrays share the frame, fills it.
+void MakeLargest(RandomStream& stream, orders_t& message);
+void MakeLargest(RandomStream& stream, weights_t& message);
+void MakeLargest(RandomStream& stream, run_t& message);
+void MakeLargest(RandomStream& stream, transitions_t& message);
+void MakeLargest(RandomStream& stream, actor_status_t& message);
+void MakeLargest(RandomStream& stream, learner_status_t& message);
+void MakeLargest(RandomStream& stream, scenario_t& message);
+void MakeLargest(RandomStream& stream, flight_t& message);
+
+template <class Message>
+Message LargestMessage(RandomStream& stream) {
+  Message message{};
+  MakeLargest(stream, message);
+  return message;
+}
 
 template <class Message>
 Message RandomMessage(RandomStream& stream) {
@@ -40,10 +62,28 @@ flight_t FlightOf(RandomStream& stream, int sensors, int policy_length);
 /// masks that allow everything.
 OrderResult RandomResult(const World& world, int64_t order_index, MaskOptions mask, RandomStream& stream);
 
+/// Calls visit(Message{}) for every type of message that has a channel, in the order of MessageTypes.
+template <class Visitor>
+void ForEachMessageType(Visitor&& visit) {
+  std::apply([&](const auto&... message) { (visit(message), ...); }, MessageTypes{});
+}
+
 template <class Message>
 std::vector<std::byte> Encoded(const Message& message) {
   std::vector<std::byte> bytes;
   Encode(message, bytes);
+  return bytes;
+}
+
+/// The encoding with the trailer that belongs behind it: what a hostile sender would send. A buffer of
+/// exactly its size, so that a sanitizer sees every read beyond it.
+inline std::vector<std::byte> WithTrailer(std::span<const std::byte> encoding) {
+  std::vector<std::byte> bytes(encoding.begin(), encoding.end());
+  const uint32_t crc = Crc32c(encoding);
+  for (const int shift : {24, 16, 8, 0}) {
+    bytes.push_back(static_cast<std::byte>(crc >> shift));
+  }
+  bytes.shrink_to_fit();
   return bytes;
 }
 

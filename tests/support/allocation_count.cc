@@ -8,7 +8,7 @@ namespace {
 std::atomic<int64_t> allocations{0};
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef FRESCO_SANITIZED
 
 // glibc's own functions: everything that asks for memory ends here.
 extern "C" {

@@ -3,7 +3,7 @@
 
 namespace fresco {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef FRESCO_SANITIZED  // by cmake/FrescoTargets.cmake
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;

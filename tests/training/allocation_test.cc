@@ -9,7 +9,7 @@
 #include "training/dqn.h"
 #include "training/replay_memory.h"
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef FRESCO_SANITIZED
 
 namespace fresco {
 namespace {
