@@ -22,32 +22,7 @@ bool IsLcmUrl(const std::string& source) {
 
 }  // namespace
 
-class EventInput::Source {
- public:
-  virtual ~Source() = default;
-  virtual std::optional<LcmEvent> Next() = 0;
-  virtual MergedEventLogs::Totals totals() const = 0;
-  virtual void WarnOfLosses() const = 0;
-};
-
-class EventInput::Logs : public Source {
- public:
-  explicit Logs(const std::vector<std::string>& paths) : logs_({paths.begin(), paths.end()}) {}
-
-  std::optional<LcmEvent> Next() override { return StopSignal::Requested() ? std::nullopt : logs_.Next(); }
-  MergedEventLogs::Totals totals() const override { return logs_.totals(); }
-
-  void WarnOfLosses() const override {
-    for (const std::string& problem : logs_.totals().Problems()) {
-      spdlog::warn("{}", problem);
-    }
-  }
-
- private:
-  MergedEventLogs logs_;
-};
-
-class EventInput::LiveBus : public Source {
+class EventInput::LiveBus {
  public:
   LiveBus(const std::string& url, double seconds) : bus_(OpenLcmBus(url)) {
     if (seconds > 0) {
@@ -56,7 +31,7 @@ class EventInput::LiveBus : public Source {
     bus_->SubscribeToAll([this](const LcmEvent& event) { Take(event); });
   }
 
-  std::optional<LcmEvent> Next() override {
+  std::optional<LcmEvent> Next() {
     constexpr int64_t kPollUs = 100'000;
     taken_ = false;
     while (!taken_ && !StopSignal::Requested()) {
@@ -69,8 +44,8 @@ class EventInput::LiveBus : public Source {
     return taken_ ? std::optional(event_) : std::nullopt;
   }
 
-  MergedEventLogs::Totals totals() const override { return {bytes_, 0, 0}; }
-  void WarnOfLosses() const override { WarnOfBusLosses(*bus_); }
+  int64_t bytes() const { return bytes_; }
+  const Bus& bus() const { return *bus_; }
 
  private:
   /// Copies the event, since it is valid during the call only.
@@ -108,24 +83,29 @@ void AddEventInput(CLI::App& app, EventInputOptions& options) {
                  "Leave out Fresco's messages of other runs than this one (run_id of summary.json)");
 }
 
-EventInput::EventInput(const EventInputOptions& options)
-    : is_live_(std::any_of(options.sources.begin(), options.sources.end(), IsLcmUrl)),
-      selection_(options.selection) {
-  if (is_live_ && options.sources.size() > 1) {
-    throw UsageError("expected event logs, or one LCM URL alone; found " + options.sources[0] + " beside " +
-                     options.sources[1]);
-  }
-  if (is_live_) {
-    source_ = std::make_unique<LiveBus>(options.sources.front(), options.seconds);
+EventInput::EventInput(const EventInputOptions& options) : selection_(options.selection) {
+  const std::vector<std::string>& sources = options.sources;
+  if (std::none_of(sources.begin(), sources.end(), IsLcmUrl)) {
+    logs_.emplace(std::vector<std::filesystem::path>(sources.begin(), sources.end()));
+  } else if (sources.size() == 1) {
+    bus_ = std::make_unique<LiveBus>(sources.front(), options.seconds);
   } else {
-    source_ = std::make_unique<Logs>(options.sources);
+    throw UsageError("expected event logs, or one LCM URL alone; found " + sources[0] + " beside " +
+                     sources[1]);
   }
 }
 
 EventInput::~EventInput() = default;
 
+std::optional<LcmEvent> EventInput::NextOfAll() {
+  if (is_live()) {
+    return bus_->Next();
+  }
+  return StopSignal::Requested() ? std::nullopt : logs_->Next();
+}
+
 std::optional<LcmEvent> EventInput::Next() {
-  while (const auto event = source_->Next()) {
+  while (const auto event = NextOfAll()) {
     if (selection_.Wants(*event)) {
       return event;
     }
@@ -133,31 +113,40 @@ std::optional<LcmEvent> EventInput::Next() {
   return std::nullopt;
 }
 
+MergedEventLogs::Totals EventInput::totals() const {
+  return is_live() ? MergedEventLogs::Totals{bus_->bytes(), 0, 0} : logs_->totals();
+}
+
 void EventInput::WarnOfLosses() const {
-  source_->WarnOfLosses();
+  if (is_live()) {
+    WarnOfBusLosses(bus_->bus());
+  } else {
+    for (const std::string& problem : logs_->totals().Problems()) {
+      spdlog::warn("{}", problem);
+    }
+  }
 }
 
 MergedEventLogs::Totals EventInput::ForEach(const std::function<void(const LcmEvent& event)>& handle) {
   constexpr int64_t kEventsPerLook = 4096;
   constexpr int64_t kQuietUs = 1'000'000;  // no progress is shown before
   const int64_t line_from_us = MonotonicMicroseconds() + kQuietUs;
-  LiveLine line(!is_live_);
+  LiveLine line(!is_live());
   int64_t events = 0;
-  while (const auto event = source_->Next()) {
+  while (const auto event = NextOfAll()) {
     if (selection_.Wants(*event)) {
       handle(*event);
     }
     if (++events % kEventsPerLook == 0 && MonotonicMicroseconds() > line_from_us) {
-      line.Show(fmt::format("read {} events, {:.1f} MB", events,
-                            1e-6 * static_cast<double>(source_->totals().bytes)));
+      line.Show(fmt::format("read {} events, {:.1f} MB", events, 1e-6 * static_cast<double>(totals().bytes)));
     }
   }
   line.Finish();
-  if (StopSignal::Requested() && !is_live_) {
+  if (StopSignal::Requested() && !is_live()) {
     throw Failure("interrupted before the end of the logs");
   }
   WarnOfLosses();
-  return source_->totals();
+  return totals();
 }
 
 }  // namespace fresco

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/event_selection.h"
 #include "logs/merged_event_logs.h"
 
@@ -34,7 +34,7 @@ class EventInput {
   ~EventInput();
 
   /// Whether the events come from a bus.
-  bool is_live() const { return is_live_; }
+  bool is_live() const { return bus_ != nullptr; }
 
   /// Returns the next selected event, valid until the next call; nullopt at the end, and if the program is
   /// asked to stop.
@@ -50,13 +50,14 @@ class EventInput {
   MergedEventLogs::Totals ForEach(const std::function<void(const LcmEvent& event)>& handle);
 
  private:
-  class Source;
-  class Logs;
   class LiveBus;
 
-  bool is_live_;
+  std::optional<LcmEvent> NextOfAll();
+  MergedEventLogs::Totals totals() const;
+
   EventSelection selection_;
-  std::unique_ptr<Source> source_;
+  std::optional<MergedEventLogs> logs_;
+  std::unique_ptr<LiveBus> bus_;  // set instead of logs_ if the source is a URL
 };
 
 }  // namespace fresco

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "core/identifier.h"
-#include "msgs/message_peek.h"
+#include "msgs/message_decoder.h"
 #include "worlds/uav/environment.h"
 #include "worlds/uav/world.h"
 
@@ -120,14 +120,6 @@ std::string Line(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
-std::string FirstBytes(std::span<const std::byte> bytes) {
-  std::string digits;
-  for (const std::byte byte : bytes.first(std::min<size_t>(bytes.size(), 8))) {
-    digits += fmt::format("{:02x}", std::to_integer<int>(byte));
-  }
-  return digits;
-}
-
 }  // namespace
 
 CsvCell CellOf(std::string_view field, int64_t value) {
@@ -181,6 +173,14 @@ std::string RowJson(const NamedRow& row) {
   return Line(json);
 }
 
+std::string FingerprintText(std::span<const std::byte> message) {
+  std::string digits;
+  for (const std::byte byte : message.first(std::min<size_t>(message.size(), 8))) {
+    digits += fmt::format("{:02x}", std::to_integer<int>(byte));
+  }
+  return digits;
+}
+
 std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
   OrderedJson json = {{"utime", event.utime}, {"channel", event.channel}, {"type", nullptr}};
   const auto result = decoder.Decode(event.message, [&json](const auto& message) {
@@ -193,7 +193,7 @@ std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
       json["damaged"] = true;
     }
     json["bytes"] = event.message.size();
-    json["fingerprint"] = FirstBytes(event.message);
+    json["fingerprint"] = FingerprintText(event.message);
   }
   return Line(json);
 }

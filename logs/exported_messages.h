@@ -5,12 +5,13 @@
 
 #include <concepts>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "core/csv.h"
 #include "msgs/message_decoder.h"
 #include "msgs/wire.h"
@@ -43,6 +44,9 @@ bool ForEachTransitionRow(const transitions_t& message, const std::function<void
 
 /// Returns a row as a JSON object in one line, without a line feed. NaN becomes null.
 std::string RowJson(const NamedRow& row);
+
+/// Returns the first eight bytes of a message, which tell its type, as hexadecimal digits.
+std::string FingerprintText(std::span<const std::byte> message);
 
 /// Returns an event as the JSON object {"utime", "channel", "type", "message": {every field}} in one line,
 /// without a line feed. If the message is damaged or not Fresco's (then the type is null), the object has the

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/identifier.h"
+#include "logs/exported_messages.h"
 
 namespace fresco {
 namespace {
@@ -17,23 +18,19 @@ constexpr size_t kMaximumRecords = 4096;  // of each kind; a limit, since anybod
 constexpr int64_t kMaximumOrder = int64_t{1} << 32;
 constexpr int64_t kMaximumSequence = int64_t{1} << 53;
 
-std::string TypeText(const char* type, std::span<const std::byte> message) {
-  if (type != nullptr) {
-    return type;
-  }
-  std::string text = "foreign ";
-  for (const std::byte byte : message.first(std::min<size_t>(message.size(), 8))) {
-    text += fmt::format("{:02x}", std::to_integer<int>(byte));
-  }
-  return text;
-}
-
 void NoteType(const char* type, std::span<const std::byte> message, ChannelTraffic& channel) {
   const bool same = type != nullptr ? channel.type == type : channel.type.starts_with("foreign");
   if (channel.events == 0) {
-    channel.type = TypeText(type, message);
+    channel.type = type != nullptr ? type : "foreign " + FingerprintText(message);
   } else if (!same) {
     channel.type = "mixed";
+  }
+}
+
+void NoteOrder(int64_t index, RunTraffic& run) {
+  if (index >= 0 && index < kMaximumOrder) {
+    const Interval known = run.orders.value_or(Interval{index, index});
+    run.orders = {std::min(known.first, index), std::max(known.last, index)};
   }
 }
 
@@ -81,9 +78,9 @@ std::string RunText(int64_t run_id, const RunTraffic& run) {
   text += run.config_known ? " (complete)"
                            : fmt::format(" (only {} of its parts recorded)", run.announcements.parts());
   text += run.finished ? ", finished\n" : ", not finished\n";
-  if (run.first_order) {
-    text += fmt::format("  orders {} .. {}, {} committed, {} without any transition\n", *run.first_order,
-                        run.last_order, run.committed_orders, run.orders_without_transitions());
+  if (run.orders) {
+    text += fmt::format("  orders {} .. {}, {} committed, {} without any transition\n", run.orders->first,
+                        run.orders->last, run.committed_orders, run.orders_without_transitions());
   }
   const EpisodeCoverage& episodes = run.episodes;
   text += fmt::format(
@@ -117,8 +114,8 @@ OrderedJson RunJson(int64_t run_id, const RunTraffic& run) {
                       {"config_hash", fmt::format("{:08x}", run.config_hash)},
                       {"config_known", run.config_known},
                       {"finished", run.finished},
-                      {"first_order", run.first_order ? OrderedJson(*run.first_order) : OrderedJson(nullptr)},
-                      {"last_order", run.first_order ? OrderedJson(run.last_order) : OrderedJson(nullptr)},
+                      {"first_order", run.orders ? OrderedJson(run.orders->first) : OrderedJson(nullptr)},
+                      {"last_order", run.orders ? OrderedJson(run.orders->last) : OrderedJson(nullptr)},
                       {"committed_orders", run.committed_orders},
                       {"orders_without_transitions", run.orders_without_transitions()},
                       {"episodes_whole", run.episodes.whole()},
@@ -150,8 +147,8 @@ OrderedJson ActorJson(int64_t actor_id, const ActorTraffic& actor) {
 }  // namespace
 
 int64_t RunTraffic::orders_without_transitions() const {
-  const int64_t orders = first_order ? last_order - *first_order + 1 : 0;
-  return std::max<int64_t>(0, orders - episodes.whole() - episodes.partial());
+  const int64_t count = orders ? orders->last - orders->first + 1 : 0;
+  return std::max<int64_t>(0, count - episodes.whole() - episodes.partial());
 }
 
 void LogSummary::Take(const LcmEvent& event) {
@@ -162,7 +159,7 @@ void LogSummary::Take(const LcmEvent& event) {
   const bool sound = type == nullptr || TakeMessage(event.message);
   foreign_ += type == nullptr ? 1 : 0;
   damaged_ += sound ? 0 : 1;
-  if (ChannelTraffic* channel = ChannelOf(event.channel)) {
+  if (ChannelTraffic* channel = RecordOf(channels_, event.channel)) {
     NoteType(type, event.message, *channel);
     ++channel->events;
     channel->message_bytes += static_cast<int64_t>(event.message.size());
@@ -186,67 +183,54 @@ bool LogSummary::TakeMessage(std::span<const std::byte> message) {
          MessageDecoder::Result::kDecoded;
 }
 
-ChannelTraffic* LogSummary::ChannelOf(std::string_view name) {
-  if (const auto found = channels_.find(name); found != channels_.end()) {
-    return &found->second;
-  }
-  if (channels_.size() >= kMaximumRecords) {
-    ++beyond_limits_;
-    return nullptr;
-  }
-  return &channels_.try_emplace(std::string(name)).first->second;
-}
-
-template <class Record>
-Record* LogSummary::RecordOf(std::map<int64_t, Record>& records, int64_t id) {
-  if (const auto found = records.find(id); found != records.end()) {
+/// Returns the record of this key, which is made if need be; null if there are too many.
+template <class Records, class Key>
+typename Records::mapped_type* LogSummary::RecordOf(Records& records, Key key) {
+  if (const auto found = records.find(key); found != records.end()) {
     return &found->second;
   }
   if (records.size() >= kMaximumRecords) {
     ++beyond_limits_;
     return nullptr;
   }
-  return &records.try_emplace(id).first->second;
+  return &records.try_emplace(typename Records::key_type(key)).first->second;
+}
+
+RunTraffic* LogSummary::RunOf(RunIdentity identity) {
+  RunTraffic* run = RecordOf(runs_, identity.run_id);
+  if (run != nullptr) {
+    run->config_hash = identity.config_hash;
+  }
+  return run;
 }
 
 void LogSummary::Take(const TransitionsHeader& header) {
-  RunTraffic* run = RecordOf(runs_, header.identity.run_id);
+  RunTraffic* run = RunOf(header.identity);
   const bool possible = header.order_index >= 0 && header.order_index < kMaximumOrder &&
                         header.first_transition >= 0 && header.transition_count > 0;
   if (run == nullptr || !possible) {
     return;
   }
-  run->config_hash = header.identity.config_hash;
   run->episodes.Add(header.order_index, header.first_transition, header.transition_count,
                     header.ends_episode);
-  run->last_order = std::max(run->last_order, header.order_index);
-  run->first_order = std::min(run->first_order.value_or(header.order_index), header.order_index);
+  NoteOrder(header.order_index, *run);
   if (run->actors.size() < kMaximumRecords) {
     run->actors.insert(header.actor_id);
   }
 }
 
 void LogSummary::Take(const run_t& message) {
-  RunTraffic* run = RecordOf(runs_, message.run_id);
-  if (run == nullptr) {
-    return;
+  if (RunTraffic* run = RunOf(IdentityOf(message))) {
+    run->finished = run->finished || message.finished != 0;
+    run->config_known = run->announcements.Add(message).has_value() || run->config_known;
   }
-  run->config_hash = IdentityOf(message).config_hash;
-  run->finished = run->finished || message.finished != 0;
-  run->config_known = run->announcements.Add(message).has_value() || run->config_known;
 }
 
 void LogSummary::Take(const orders_t& message) {
-  RunTraffic* run = RecordOf(runs_, message.run_id);
-  if (run == nullptr) {
-    return;
-  }
-  run->config_hash = IdentityOf(message).config_hash;
-  run->committed_orders = std::max(run->committed_orders, message.committed_orders);
-  for (const order_t& order : message.orders) {
-    if (order.index >= 0 && order.index < kMaximumOrder) {
-      run->last_order = std::max(run->last_order, order.index);
-      run->first_order = std::min(run->first_order.value_or(order.index), order.index);
+  if (RunTraffic* run = RunOf(IdentityOf(message))) {
+    run->committed_orders = std::max(run->committed_orders, message.committed_orders);
+    for (const order_t& order : message.orders) {
+      NoteOrder(order.index, *run);
     }
   }
 }
@@ -265,8 +249,7 @@ void LogSummary::Take(const actor_status_t& message) {
 }
 
 void LogSummary::Take(const learner_status_t& message) {
-  if (RunTraffic* run = RecordOf(runs_, message.run_id)) {
-    run->config_hash = IdentityOf(message).config_hash;
+  if (RunTraffic* run = RunOf(IdentityOf(message))) {
     run->learner_status = message;
   }
 }

@@ -8,11 +8,10 @@
 #include <set>
 #include <string>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/coverage.h"
 #include "logs/merged_event_logs.h"
 #include "msgs/message_decoder.h"
-#include "msgs/message_peek.h"
 #include "msgs/run_announcements.h"
 
 namespace fresco {
@@ -26,11 +25,10 @@ struct ChannelTraffic {
 
 struct RunTraffic {
   uint32_t config_hash = 0;
-  RunAnnouncements announcements;      ///< the parts of its configuration that were recorded
-  bool config_known = false;           ///< whether all of them were recorded
-  bool finished = false;               ///< the learner announced the end of the run
-  std::optional<int64_t> first_order;  ///< lowest index of a recorded order; none: no order was recorded
-  int64_t last_order = -1;             ///< highest index of a recorded order
+  RunAnnouncements announcements;  ///< the parts of its configuration that were recorded
+  bool config_known = false;       ///< whether all of them were recorded
+  bool finished = false;           ///< the learner announced the end of the run
+  std::optional<Interval> orders;  ///< lowest and highest index of the recorded orders; none: there are none
   int64_t committed_orders = 0;
   EpisodeCoverage episodes;
   std::set<int64_t> actors;                        ///< ids of the actors that sent transitions
@@ -68,9 +66,9 @@ class LogSummary {
   int64_t beyond_limits() const { return beyond_limits_; }
 
  private:
-  ChannelTraffic* ChannelOf(std::string_view name);
-  template <class Record>
-  Record* RecordOf(std::map<int64_t, Record>& records, int64_t id);
+  template <class Records, class Key>
+  typename Records::mapped_type* RecordOf(Records& records, Key key);
+  RunTraffic* RunOf(RunIdentity identity);
   bool TakeMessage(std::span<const std::byte> message);
   void Take(const TransitionsHeader& header);
   void Take(const run_t& message);

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
-#include <iterator>
 
 #include "bus/authenticated_bus.h"
 #include "core/error.h"
@@ -12,44 +10,6 @@
 #include "msgs/run_announcements.h"
 
 namespace fresco {
-namespace {
-
-/// Collects runs by their identity, in the order in which they appear.
-class Runs {
- public:
-  void Take(const run_t& message) {
-    Entry& entry = Of(IdentityOf(message));
-    entry.run.protocol_version = message.protocol_version;
-    entry.run.arithmetic_fingerprint = message.arithmetic_fingerprint;
-    if (!entry.run.config_text) {
-      entry.run.config_text = entry.announcements.Add(message);
-    }
-  }
-  void Take(const transitions_t& message) { ++Of(IdentityOf(message)).run.transitions_messages; }
-
-  std::vector<LoggedRun> All() && {
-    std::vector<LoggedRun> runs;
-    std::transform(entries_.begin(), entries_.end(), std::back_inserter(runs),
-                   [](Entry& entry) { return std::move(entry.run); });
-    return runs;
-  }
-
- private:
-  struct Entry {
-    LoggedRun run;
-    RunAnnouncements announcements = {};
-  };
-
-  Entry& Of(RunIdentity identity) {
-    const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                    [&](const Entry& entry) { return entry.run.identity == identity; });
-    return found != entries_.end() ? *found : entries_.emplace_back(Entry{{identity}});
-  }
-
-  std::deque<Entry> entries_;
-};
-
-}  // namespace
 
 std::optional<LogMessage> LogMessages::Next() {
   while (const auto event = logs_.Next()) {
@@ -64,18 +24,34 @@ std::optional<LogMessage> LogMessages::Next() {
 }
 
 std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
-  Runs runs;
+  std::vector<LoggedRun> runs;
+  std::vector<RunAnnouncements> announcements;  // those of each run
+  const auto place_of = [&](RunIdentity identity) {
+    const auto found = std::find_if(runs.begin(), runs.end(),
+                                    [&](const LoggedRun& run) { return run.identity == identity; });
+    if (found != runs.end()) {
+      return static_cast<size_t>(found - runs.begin());
+    }
+    runs.push_back({identity});
+    announcements.emplace_back();
+    return runs.size() - 1;
+  };
   LogMessages messages(source);
   run_t run{};
   transitions_t transitions{};
   while (const auto message = messages.Next()) {
     if (message->DecodeAs(run)) {
-      runs.Take(run);
+      const size_t place = place_of(IdentityOf(run));
+      runs[place].protocol_version = run.protocol_version;
+      runs[place].arithmetic_fingerprint = run.arithmetic_fingerprint;
+      if (!runs[place].config_text) {
+        runs[place].config_text = announcements[place].Add(run);
+      }
     } else if (message->DecodeAs(transitions)) {
-      runs.Take(transitions);
+      ++runs[place_of(IdentityOf(transitions))].transitions_messages;
     }
   }
-  return std::move(runs).All();
+  return runs;
 }
 
 LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id) {

@@ -11,24 +11,21 @@
 
 namespace fresco {
 
-TextOutput::TextOutput(std::string path) : path_(std::move(path)), file_(stdout) {
-  if (!path_.empty()) {
-    own_file_.reset(std::fopen(path_.c_str(), "we"));
-    file_ = own_file_.get();
-    if (file_ == nullptr) {
-      throw UsageError(fmt::format("--out: can't write {}: {}", path_, std::strerror(errno)));
-    }
+TextOutput::TextOutput(std::string path)
+    : path_(std::move(path)), file_(path_.empty() ? stdout : std::fopen(path_.c_str(), "we")) {
+  if (file_ == nullptr) {
+    throw UsageError(fmt::format("--out: can't write {}: {}", path_, std::strerror(errno)));
   }
 }
 
 void TextOutput::Write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) {
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) {
     ThrowProblem();
   }
 }
 
 void TextOutput::Flush() {
-  if (std::fflush(file_) != 0) {
+  if (std::fflush(file_.get()) != 0) {
     ThrowProblem();
   }
 }

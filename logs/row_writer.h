@@ -26,14 +26,17 @@ class TextOutput {
 
  private:
   struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+    void operator()(std::FILE* file) const {
+      if (file != stdout) {
+        std::fclose(file);
+      }
+    }
   };
 
   [[noreturn]] void ThrowProblem() const;
 
   std::string path_;
-  std::unique_ptr<std::FILE, Close> own_file_;
-  std::FILE* file_;
+  std::unique_ptr<std::FILE, Close> file_;
 };
 
 /// Writes a table as CSV or as JSON Lines.

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/installation.h"
 
 namespace fresco {
@@ -34,6 +34,18 @@ std::vector<std::filesystem::path> FilesOf(const std::filesystem::path& path) {
   }
 }
 
+/// Returns the event logs in a run's folder, in the order in which they were recorded.
+std::vector<std::filesystem::path> RecordedLogs(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> logs;
+  for (int number = 1;; ++number) {
+    const auto files = FilesOf(EventLogPath(folder, number));
+    if (files.empty()) {
+      return logs;
+    }
+    logs.insert(logs.end(), files.begin(), files.end());
+  }
+}
+
 std::filesystem::path FreeEventLogPath(const std::filesystem::path& folder) {
   int number = 1;
   while (!FilesOf(EventLogPath(folder, number)).empty()) {
@@ -53,17 +65,6 @@ std::vector<std::string> RecorderArguments(const std::filesystem::path& path, co
 }
 
 }  // namespace
-
-std::vector<std::filesystem::path> RecordedLogs(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> logs;
-  for (int number = 1;; ++number) {
-    const auto files = FilesOf(EventLogPath(folder, number));
-    if (files.empty()) {
-      return logs;
-    }
-    logs.insert(logs.end(), files.begin(), files.end());
-  }
-}
 
 RunRecorder::RunRecorder(const std::filesystem::path& folder, const std::string& lcm_url, double split_mb)
     : folder_(folder), log_(folder / "recorder.log") {

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/child_process.h"
 
@@ -41,8 +40,5 @@ class RunRecorder {
   std::unique_ptr<ChildProcess> process_;
   bool has_failed_ = false;
 };
-
-/// Returns the event logs in a run's folder, in the order in which they were recorded.
-std::vector<std::filesystem::path> RecordedLogs(const std::filesystem::path& folder);
 
 }  // namespace fresco

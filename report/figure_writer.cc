@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "report/flight_map.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
 #include "report/study_statistics.h"
-#include "storage/flown_policy.h"
 #include "storage/policy.h"
 #include "worlds/uav/baselines.h"
 
@@ -106,10 +105,11 @@ class FigureWriter {
         spdlog::warn("the optimum of {} is not proved, so it has no gap", study_.jobs[job].name);
       }
       rows.push_back({study_.jobs[job].name, fmt::format("{:08x}", study_.jobs[job].experiment.hash()),
-                      int64_t{result.arrived}, result.total_aoi, result.aoi_total_aoi,
-                      result.distance_total_aoi, CellOrEmpty(result.optimal_total_aoi), result.average_aoi,
-                      result.lower_bound_average_aoi, CellOrEmpty(result.gap_percent), result.updates,
-                      result.weights_crc32c});
+                      int64_t{result.arrived}, result.dqn.total_aoi, result.aoi_based.total_aoi,
+                      result.distance_based.total_aoi,
+                      result.optimal ? CsvCell(result.optimal->total_aoi) : CsvCell(std::string()),
+                      result.dqn.average_aoi, result.lower_bound_average_aoi, CellOrEmpty(result.gap_percent),
+                      result.updates, result.weights_crc32c});
     }
     WriteCsv(folder_ / "runs.csv",
              {"run", "config_hash", "dqn_arrived", "dqn_total_aoi", "aoi_total_aoi", "distance_total_aoi",
@@ -161,11 +161,11 @@ class FigureWriter {
       std::vector<CsvCell> row = {budget_j};
       for (size_t i = 0; i < std::size(kPolicies); ++i) {
         const bool trained = kPolicies[i].role != CurveRole::kDqn || group != groups.end();
-        const std::optional<double> average_aoi = trained ? kPolicies[i].average_aoi(result) : std::nullopt;
-        row.push_back(CellOrEmpty(average_aoi));
-        if (average_aoi) {
+        const std::optional<PolicyResult> reached = trained ? kPolicies[i].result(result) : std::nullopt;
+        row.push_back(reached ? CsvCell(reached->average_aoi) : CsvCell(std::string()));
+        if (reached) {
           plot.curves[i].x.push_back(budget_j);
-          plot.curves[i].y.push_back(*average_aoi);
+          plot.curves[i].y.push_back(reached->average_aoi);
         }
       }
       rows.push_back(std::move(row));
@@ -196,12 +196,16 @@ class FigureWriter {
 
   StudyResult WithoutTraining(Figure figure, double budget_j) const {
     const World world(WithBudget(base_, figure, budget_j).scenario());
+    const auto result_of = [&](const Episode& flight) {
+      const AoiFigures figures = Figures(world, flight);
+      return PolicyResult{figures.average_aoi, figures.total_aoi};
+    };
     StudyResult result;
-    result.aoi_average_aoi = Figures(world, FlyBaseline(world, BaselineKind::kAoi)).average_aoi;
-    result.distance_average_aoi = Figures(world, FlyBaseline(world, BaselineKind::kDistance)).average_aoi;
+    result.aoi_based = result_of(FlyBaseline(world, BaselineKind::kAoi));
+    result.distance_based = result_of(FlyBaseline(world, BaselineKind::kDistance));
     const Plan plan = PlanWithin(world, {});
     if (plan.optimal) {
-      result.optimal_average_aoi = Figures(world, plan.flight).average_aoi;
+      result.optimal = result_of(plan.flight);
     }
     return result;
   }

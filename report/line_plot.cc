@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {
@@ -39,56 +39,33 @@ RoleStyle StyleOf(CurveRole role) {
   FRESCO_CHECK(false);
 }
 
-// The following functions return gnuplot's options for the colour, the line and the points. They are empty if
-// the shape has no line or no points.
+/// gnuplot's options for a curve.
+struct CurveLooks {
+  std::string colour;
+  std::string line;   // empty: no line
+  std::string point;  // empty: no points
+  const char* plotting_style;
+};
 
-std::string ColourOption(CurveRole role, CurveShape shape) {
-  constexpr int kFaint = 0x90;  // transparency: 0 .. 255
-  return fmt::format("linecolor rgb '#{:02X}{}'", shape == CurveShape::kFaintDots ? kFaint : 0,
-                     StyleOf(role).colour + 1);
-}
-
-std::string LineOptions(CurveRole role, CurveShape shape) {
+CurveLooks LooksOf(CurveRole role, CurveShape shape) {
   const RoleStyle style = StyleOf(role);
-  switch (shape) {
-    case CurveShape::kMarkers:
-    case CurveShape::kTopMarks:
-      return "";
-    case CurveShape::kFaintDots:
-      return "linewidth 0.8";
-    default:
-      return fmt::format("linewidth {} {}", style.line_width, style.dashes);
-  }
-}
-
-std::string PointOptions(CurveRole role, CurveShape shape) {
-  const RoleStyle style = StyleOf(role);
+  const std::string colour = fmt::format("linecolor rgb '#00{}'", style.colour + 1);
+  const std::string line = fmt::format("linewidth {} {}", style.line_width, style.dashes);
+  const std::string marker = fmt::format("pointtype {} pointsize {}", style.marker, style.marker_size);
   switch (shape) {
     case CurveShape::kLineAndMarkers:
+      return {colour, line, marker, "linespoints"};
     case CurveShape::kMarkers:
-      return fmt::format("pointtype {} pointsize {}", style.marker, style.marker_size);
-    case CurveShape::kFaintDots:
-      return "pointtype 7 pointsize 0.3";
-    case CurveShape::kTopMarks:
-      return "pointtype 2 pointsize 0.55 linewidth 1.2";
-    default:
-      return "";
-  }
-}
-
-/// Returns gnuplot's plotting style for the shape.
-const char* PlottingStyle(CurveShape shape) {
-  switch (shape) {
-    case CurveShape::kLineAndMarkers:
-    case CurveShape::kFaintDots:
-      return "linespoints";
+      return {colour, "", marker, "points"};
     case CurveShape::kLine:
-      return "lines";
+      return {colour, line, "", "lines"};
     case CurveShape::kSteps:
-      return "steps";
-    case CurveShape::kMarkers:
+      return {colour, line, "", "steps"};
+    case CurveShape::kFaintDots:  // the first two digits are the transparency
+      return {fmt::format("linecolor rgb '#90{}'", style.colour + 1), "linewidth 0.8",
+              "pointtype 7 pointsize 0.3", "linespoints"};
     case CurveShape::kTopMarks:
-      return "points";
+      return {colour, "", "pointtype 2 pointsize 0.55 linewidth 1.2", "points"};
   }
   FRESCO_CHECK(false);
 }
@@ -188,26 +165,27 @@ std::string SpreadCommand(const Curve& curve, size_t number) {
   return fmt::format(
       "$curve{} using ($1+{}):($3>0?$2-$3:NaN):(0):(2*$3) with vectors heads size graph 0.005,90 "
       "linewidth 1.1 {}",
-      number, curve.bars_aside, ColourOption(curve.role, CurveShape::kLine));
+      number, curve.bars_aside, LooksOf(curve.role, CurveShape::kLine).colour);
 }
 
 std::string CurveCommand(const Curve& curve, size_t number) {
-  return fmt::format("$curve{} using 1:2 with {} {} {} {}", number, PlottingStyle(curve.shape),
-                     ColourOption(curve.role, curve.shape), LineOptions(curve.role, curve.shape),
-                     PointOptions(curve.role, curve.shape));
+  const CurveLooks looks = LooksOf(curve.role, curve.shape);
+  return fmt::format("$curve{} using 1:2 with {} {} {} {}", number, looks.plotting_style, looks.colour,
+                     looks.line, looks.point);
 }
 
 Legend MakeLegend(const LinePlot& plot) {
   std::vector<LegendEntry> entries;
+  const auto add = [&](const std::string& name, const CurveLooks& looks) {
+    entries.push_back({name, looks.colour, looks.line, looks.point});
+  };
   for (const Curve& curve : plot.curves) {
     if (!curve.x.empty()) {
-      entries.push_back({curve.name, ColourOption(curve.role, curve.shape),
-                         LineOptions(curve.role, curve.shape), PointOptions(curve.role, curve.shape)});
+      add(curve.name, LooksOf(curve.role, curve.shape));
     }
   }
   for (const ReferenceLine& reference : plot.references) {
-    entries.push_back({reference.name, ColourOption(reference.role, CurveShape::kLine),
-                       LineOptions(reference.role, CurveShape::kLine), ""});
+    add(reference.name, LooksOf(reference.role, CurveShape::kLine));
   }
   return Legend(std::move(entries), kPlotWidthPx);
 }
@@ -218,9 +196,9 @@ std::string AxesScript(const LinePlot& plot, Range x, Range y) {
   script += fmt::format("set grid ytics linetype 1 linewidth 0.7 linecolor rgb '{}'\n", colour::kGrid);
   script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", x.low, x.high, y.low, y.high);
   for (const ReferenceLine& reference : plot.references) {
+    const CurveLooks looks = LooksOf(reference.role, CurveShape::kLine);
     script += fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} nohead front {1} {2}\n",
-                          reference.y, ColourOption(reference.role, CurveShape::kLine),
-                          LineOptions(reference.role, CurveShape::kLine));
+                          reference.y, looks.colour, looks.line);
   }
   if (plot.integer_x_tics) {
     script += fmt::format("set xtics {}\n", IntegerStep(x));

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "core/check.h"
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+
+#include "core/error.h"
 
 namespace fresco {
 namespace {
@@ -33,67 +37,40 @@ std::vector<bool> NumericColumns(const ReportTable& table) {
   return numeric;
 }
 
-std::string TableCell(std::string_view tag, bool number, const std::string& text) {
-  return fmt::format("<{}{}>{}</{}>", tag, number ? " class=\"number\"" : "", EscapedHtml(text),
-                     tag.substr(0, 2));
-}
-
-std::string HeaderRow(const std::vector<std::string>& cells, const std::vector<bool>& numeric) {
+/// Returns a row of the table. `first_tag` and `tag` are those of the first and the other cells.
+std::string Row(const std::vector<std::string>& cells, const std::vector<bool>& numeric,
+                std::string_view first_tag, std::string_view tag) {
   std::string html = "<tr>";
   for (size_t column = 0; column < cells.size(); ++column) {
-    html += TableCell("th scope=\"col\"", numeric[column], cells[column]);
+    const std::string_view cell_tag = column == 0 ? first_tag : tag;
+    html += fmt::format("<{}{}>{}</{}>", cell_tag, numeric[column] ? " class=\"number\"" : "",
+                        EscapedHtml(cells[column]), cell_tag.substr(0, 2));
   }
   return html + "</tr>\n";
 }
 
-std::string Row(const std::vector<std::string>& cells, const std::vector<bool>& numeric) {
-  std::string html = "<tr>";
-  for (size_t column = 0; column < cells.size(); ++column) {
-    html += TableCell(column == 0 ? "th scope=\"row\"" : "td", numeric[column], cells[column]);
+using Replacement = std::pair<char, std::string_view>;
+
+std::string Replaced(std::string_view text, std::initializer_list<Replacement> replacements) {
+  std::string replaced;
+  replaced.reserve(text.size());
+  for (const char character : text) {
+    const auto found =
+        std::find_if(replacements.begin(), replacements.end(),
+                     [&](const Replacement& replacement) { return replacement.first == character; });
+    replaced += found == replacements.end() ? std::string_view(&character, 1) : found->second;
   }
-  return html + "</tr>\n";
+  return replaced;
 }
 
 }  // namespace
 
 std::string EscapedHtml(std::string_view text) {
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += character;
-    }
-  }
-  return escaped;
+  return Replaced(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}});
 }
 
 std::string EscapedJson(std::string_view json) {
-  std::string escaped;
-  escaped.reserve(json.size());
-  for (const char character : json) {
-    if (character == '<') {
-      escaped += "\\u003c";
-    } else {
-      escaped += character;
-    }
-  }
-  return escaped;
+  return Replaced(json, {{'<', "\\u003c"}});
 }
 
 std::string PercentEncoded(std::string_view text) {
@@ -129,6 +106,7 @@ std::string FilledTemplate(std::string_view page, const std::map<std::string_vie
 }
 
 std::string TableHtml(const ReportTable& table) {
+  constexpr std::string_view kColumnHeader = "th scope=\"col\"";
   const std::vector<bool> numeric = NumericColumns(table);
   // tabindex lets the keyboard scroll the table.
   std::string html = fmt::format(
@@ -136,11 +114,11 @@ std::string TableHtml(const ReportTable& table) {
       "<table>\n<caption>{0}</caption>\n",
       EscapedHtml(table.title));
   if (!table.header.empty()) {
-    html += "<thead>\n" + HeaderRow(table.header, numeric) + "</thead>\n";
+    html += "<thead>\n" + Row(table.header, numeric, kColumnHeader, kColumnHeader) + "</thead>\n";
   }
   html += "<tbody>\n";
   for (const std::vector<std::string>& row : table.rows) {
-    html += Row(row, numeric);
+    html += Row(row, numeric, "th scope=\"row\"", "td");
   }
   return html + "</tbody>\n</table>\n</div>\n";
 }

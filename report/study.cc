@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/live_line.h"
 #include "core/signals.h"
 #include "processes/training_run.h"
@@ -216,20 +216,19 @@ StudyResult ResultOf(const std::string& summary_json, const Path& folder) {
     throw Failure(
         fmt::format("the search for the optimum of {} failed; see its learner.log", folder.string()));
   }
-  const Json& baselines = summary.at("baselines");
+  const auto policy_result = [](const Json& figures) {
+    return PolicyResult{figures.at("average_aoi").get<double>(), figures.at("total_aoi").get<int64_t>()};
+  };
   StudyResult result;
   result.arrived = summary.at("arrived").get<bool>();
-  result.average_aoi = summary.at("average_aoi").get<double>();
-  result.total_aoi = summary.at("total_aoi").get<int64_t>();
-  result.aoi_average_aoi = baselines.at("aoi").at("average_aoi").get<double>();
-  result.distance_average_aoi = baselines.at("distance").at("average_aoi").get<double>();
-  result.aoi_total_aoi = baselines.at("aoi").at("total_aoi").get<int64_t>();
-  result.distance_total_aoi = baselines.at("distance").at("total_aoi").get<int64_t>();
+  result.dqn = policy_result(summary);
+  result.aoi_based = policy_result(summary.at("baselines").at("aoi"));
+  result.distance_based = policy_result(summary.at("baselines").at("distance"));
   result.lower_bound_average_aoi = summary.at("lower_bound_average_aoi").get<double>();
   if (!summary.at("optimal_total_aoi").is_null()) {
-    result.optimal_total_aoi = summary.at("optimal_total_aoi").get<int64_t>();
-    result.optimal_average_aoi = summary.at("optimal_average_aoi").get<double>();
-    result.gap_percent = GapPercent(result.average_aoi, result.lower_bound_average_aoi);
+    result.optimal = {summary.at("optimal_average_aoi").get<double>(),
+                      summary.at("optimal_total_aoi").get<int64_t>()};
+    result.gap_percent = GapPercent(result.dqn.average_aoi, result.lower_bound_average_aoi);
   }
   result.updates = summary.at("updates").get<int64_t>();
   result.weights_crc32c = summary.at("weights_crc32c").get<std::string>();

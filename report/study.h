@@ -18,20 +18,21 @@ struct StudyJob {
   Experiment experiment;
 };
 
-/// The result of a run, from its summary. AoI is in slots.
+/// What a policy reaches: the AoI over its flight, in slots.
+struct PolicyResult {
+  double average_aoi = 0;
+  int64_t total_aoi = 0;
+};
+
+/// The result of a run, from its summary.
 struct StudyResult {
-  bool arrived = false;                       ///< whether the run's best policy arrives
-  double average_aoi = 0;                     ///< of the run's best policy
-  int64_t total_aoi = 0;                      ///< of the run's best policy
-  double aoi_average_aoi = 0;                 ///< of the AoI-based baseline
-  double distance_average_aoi = 0;            ///< of the distance-based baseline
-  int64_t aoi_total_aoi = 0;                  ///< of the AoI-based baseline
-  int64_t distance_total_aoi = 0;             ///< of the distance-based baseline
-  std::optional<double> optimal_average_aoi;  ///< of the exact optimum; none if it is not proved
-  std::optional<int64_t> optimal_total_aoi;   ///< of the exact optimum; none if it is not proved
-  std::optional<double> gap_percent;          ///< how far average_aoi is above the optimum; none if not
-                                              ///< proved
-  double lower_bound_average_aoi = 0;         ///< no flight has a smaller average AoI; always proved
+  bool arrived = false;  ///< whether the run's best policy arrives
+  PolicyResult dqn;      ///< the run's best policy
+  PolicyResult aoi_based;
+  PolicyResult distance_based;
+  std::optional<PolicyResult> optimal;  ///< the exact optimum; none if it is not proved
+  std::optional<double> gap_percent;    ///< how far dqn is above the optimum; none if that is not proved
+  double lower_bound_average_aoi = 0;   ///< no flight has a smaller average AoI; always proved
   int64_t updates = 0;
   std::string weights_crc32c;
 };

@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {
@@ -58,11 +58,11 @@ MeanEstimate EstimateMean(std::span<const double> sample, double confidence) {
 std::optional<MeanEstimate> Group::Average(const Policy& policy) const {
   std::vector<double> sample;
   for (const StudyResult& result : results) {
-    const std::optional<double> average_aoi = policy.average_aoi(result);
-    if (!average_aoi) {
+    const std::optional<PolicyResult> reached = policy.result(result);
+    if (!reached) {
       return std::nullopt;
     }
-    sample.push_back(*average_aoi);
+    sample.push_back(reached->average_aoi);
   }
   return EstimateMean(sample);
 }

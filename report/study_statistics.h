@@ -36,18 +36,16 @@ struct Policy {
   const char* name;    ///< in texts
   const char* column;  ///< first part of its columns' names in CSV files
   CurveRole role;
-  std::optional<double> (*average_aoi)(const StudyResult&);  ///< returns its average AoI; none if not known
+  std::optional<PolicyResult> (*result)(const StudyResult&);  ///< returns its result; none if not known
 };
 /// All policies, in the order of the curves and columns.
 inline constexpr Policy kPolicies[] = {
-    {"DQN", "dqn", CurveRole::kDqn,
-     [](const StudyResult& result) { return std::optional(result.average_aoi); }},
+    {"DQN", "dqn", CurveRole::kDqn, [](const StudyResult& run) { return std::optional(run.dqn); }},
     {"AoI-based", "aoi", CurveRole::kAoiBased,
-     [](const StudyResult& result) { return std::optional(result.aoi_average_aoi); }},
+     [](const StudyResult& run) { return std::optional(run.aoi_based); }},
     {"distance-based", "distance", CurveRole::kDistanceBased,
-     [](const StudyResult& result) { return std::optional(result.distance_average_aoi); }},
-    {"exact optimum", "optimal", CurveRole::kOptimum,
-     [](const StudyResult& result) { return result.optimal_average_aoi; }},
+     [](const StudyResult& run) { return std::optional(run.distance_based); }},
+    {"exact optimum", "optimal", CurveRole::kOptimum, [](const StudyResult& run) { return run.optimal; }},
 };
 
 /// The results at one x of a figure.

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {
@@ -32,9 +32,7 @@ int CountDescriptors(pid_t pid) {
 
 std::string CommandLine(pid_t pid) {
   std::ifstream stream(FolderOf(pid) / "cmdline", std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::vector<pid_t> AllProcesses() {

@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/authentication_key.h"
+#include "bus/authenticated_bus.h"
 #include "msgs/experiment.h"
-#include "soak/fault_injector.h"
-#include "soak/fault_plan.h"
+#include "soak/faults.h"
 #include "soak/soak_checks.h"
 
 namespace fresco {

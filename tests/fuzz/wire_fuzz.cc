@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "bus/authenticated_bus.h"
-#include "core/check.h"
-#include "msgs/message_peek.h"
+#include "core/error.h"
+#include "msgs/message_decoder.h"
 #include "msgs/order.h"
 #include "msgs/run_announcements.h"
 #include "msgs/weights_codec.h"

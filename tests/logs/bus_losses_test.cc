@@ -1,4 +1,4 @@
-// A socket that nobody reads, and what does not fit it.
+// Sends more to a socket than fits it, and reads it late.
 #include "logs/bus_losses.h"
 
 #include <arpa/inet.h>

@@ -1,4 +1,4 @@
-// Held against plain sets of numbers and a plain record of every transition.
+// Compares both classes with plain sets of numbers.
 #include "logs/coverage.h"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 
 namespace fresco {
 
@@ -24,14 +24,14 @@ LcmEvent EventOf(const LogEvent& event);
 /// Events of many sizes and channels, a millisecond apart; some contain the sync word, one is empty.
 std::vector<LogEvent> SampleEvents(int count, int64_t first_utime = 1'700'000'000'000'000);
 
-/// The lowest `size` bytes of the number, most significant first: how LCM writes one.
+/// Returns the lowest `size` bytes of the number, most significant first, as LCM writes numbers.
 std::string BigEndian(uint64_t value, int size);
 
-/// The log's bytes as the published format has them.
+/// Returns the bytes of a log, made after the published format.
 std::string LogBytes(const std::vector<LogEvent>& events);
 
 void WriteWithLcm(const std::filesystem::path& path, const std::vector<LogEvent>& events);
-/// Expects consecutive numbers from 0 on.
+/// Expects the events' numbers to be 0, 1, 2, ..
 std::vector<LogEvent> ReadWithLcm(const std::filesystem::path& path);
 
 void WriteBytes(const std::filesystem::path& path, const std::string& bytes);

@@ -1,4 +1,4 @@
-// Event logs as LCM's own library writes them, whole, cut at every byte, and damaged.
+// Reads event logs that LCM's own library wrote: whole, cut at every byte, and damaged.
 #include "logs/event_log_reader.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ void SetLength(std::string& bytes, size_t offset, uint32_t length) {
   }
 }
 
-/// Where each event begins, and the end.
+/// Returns the position of each event, and of the log's end.
 std::vector<size_t> Boundaries(const std::vector<LogEvent>& events) {
   std::vector<size_t> boundaries = {0};
   for (const LogEvent& event : events) {
@@ -115,7 +115,7 @@ TEST(EventLogReader, SkipsAnEventWhoseSyncWordIsFlipped) {
     std::vector<LogEvent> expected = events;
     expected.erase(expected.begin() + static_cast<ptrdiff_t>(flipped));
     EXPECT_EQ(reading.events, expected) << flipped;
-    // Behind the last event there is none that shows where the damage ends.
+    // No event follows the last one, so the end of its damage is not known.
     const auto lost = static_cast<int64_t>(boundaries[flipped + 1] - boundaries[flipped]);
     EXPECT_EQ(reading.damaged_bytes + reading.torn_bytes, lost) << flipped;
   }
@@ -165,7 +165,7 @@ TEST(EventLogReader, GoesOnBehindAnEventWhoseLengthIsTooSmall) {
   std::string bytes = LogBytes(events);
   SetLength(bytes, boundaries[4] + kMessageLengthOffset, static_cast<uint32_t>(events[4].message.size()) - 5);
   const Reading reading = ReadBytes(bytes);
-  // The event itself lacks its end: nothing of it tells.
+  // The event itself lacks its end. Nothing in the log shows that.
   ASSERT_EQ(reading.events.size(), events.size());
   EXPECT_TRUE(std::equal(events.begin() + 5, events.end(), reading.events.begin() + 5));
   EXPECT_EQ(reading.damaged_bytes, 5);

@@ -1,4 +1,4 @@
-// What is written is read by LCM's own library.
+// LCM's own library reads what was written.
 #include "logs/event_log_writer.h"
 
 #include <gtest/gtest.h>

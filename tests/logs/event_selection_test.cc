@@ -1,4 +1,4 @@
-// Which events the subcommands of `fresco log` take.
+// Which events the subcommands of `fresco log` select.
 #include "logs/event_selection.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What `fresco log info` gathers, from messages made by hand.
+// What `fresco log info` shows of messages that were made by hand.
 #include "logs/log_summary.h"
 
 #include <gtest/gtest.h>

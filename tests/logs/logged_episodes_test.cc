@@ -1,4 +1,4 @@
-// What logs hold of runs and their episodes.
+// Which runs and episodes logs contain.
 #include "logs/logged_episodes.h"
 
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 
 #include "bus/authenticated_bus.h"
 #include "bus/bus.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
 #include "tests/logs/run_log.h"
 #include "tests/support/temporary_folder.h"
@@ -102,7 +102,7 @@ TEST_F(LoggedEpisodesTest, ReadsAuthenticatedMessages) {
   EXPECT_EQ(FindLoggedRuns({{folder_.path() / "log"}}).size(), 1u);
 }
 
-/// The same events as they stand on a bus with this key.
+/// Returns the same events as a bus with this key sends them.
 std::vector<OwnedEvent> Authenticated(const std::vector<OwnedEvent>& events, const AuthenticationKey& key) {
   std::vector<OwnedEvent> authenticated;
   const std::unique_ptr<Bus> plain = OpenLcmBus("memq://");

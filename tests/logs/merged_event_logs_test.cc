@@ -1,4 +1,4 @@
-// Several logs as one: parts of a split log, and recordings of several hosts.
+// Reads several logs as one: parts of a split log, and recordings of several hosts.
 #include "logs/merged_event_logs.h"
 
 #include <gtest/gtest.h>

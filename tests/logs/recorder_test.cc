@@ -1,4 +1,4 @@
-// What goes over a bus stands in the log, or is counted as dropped.
+// Every message of a bus is in the log, or is counted as dropped.
 #include "logs/recorder.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a retraining says of its logs.
+// What a retraining says about its logs and its result.
 #include "logs/retrain_run.h"
 
 #include <gmock/gmock.h>

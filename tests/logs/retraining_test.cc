@@ -1,4 +1,4 @@
-// Training from logs against the run that they were recorded of, which one loop flew and trained.
+// Compares training from logs with the run that was recorded, which a simple loop flew and trained.
 #include "logs/retraining.h"
 
 #include <gmock/gmock.h>
@@ -146,7 +146,7 @@ TEST_F(RetrainingTest, TrainsAnotherAgentOnTheRecordedExperience) {
   EXPECT_NE(retraining->trainer().current().size(), live_.trainer.current().size());
 }
 
-/// An agent that differs in nothing that its training depends on learns the same from the same episodes.
+/// The other agent differs only in an option that does not influence training, so it must learn the same.
 TEST_F(RetrainingTest, GivesExperienceToTrainingOrdersInTheirOrder) {
   const Experiment same = SmallExperiment({{"schedule.ladder.exponent", "6.5"}});
   ASSERT_NE(same.hash(), live_.experiment.hash());

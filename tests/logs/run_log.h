@@ -1,4 +1,4 @@
-// An LCM event log as a recorder would have written it of a small run that was flown in this process.
+// Makes the LCM event log that a recorder would have written of a small run, which was flown in this process.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ inline RunIdentity Identity(const RecordedRun& run, int64_t run_id = 77) {
   return {run_id, run.experiment.hash()};
 }
 
-/// Everything that the run's learner and actor would have sent, in order: the configuration, orders, episodes
-/// in messages of transitions, and the first chunk of each version of the networks.
+/// Returns everything that the run's learner and actor would have sent, in order: the configuration, orders,
+/// episodes in messages of transitions, and the first chunk of each version of the networks.
 std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity);
 
 void WriteLog(const std::filesystem::path& path, const std::vector<OwnedEvent>& events);

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/random.h"
 #include "msgs/order.h"
 

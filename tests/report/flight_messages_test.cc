@@ -1,10 +1,10 @@
-// What `fresco fly` publishes, against what `fresco evaluate` prints of the same flight.
+// Compares what `fresco fly` publishes with what `fresco evaluate` prints of the same flight.
 #include "msgs/flight_messages.h"
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "report/result_display.h"
 #include "tests/worlds/test_scenarios.h"

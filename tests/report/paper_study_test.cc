@@ -1,4 +1,4 @@
-// Which runs the figures are made of, held against the paper's axes and energies worked out by hand.
+// Compares the runs of the figures with the paper's axes, and with energies worked out by hand.
 #include "report/paper_study.h"
 
 #include <gtest/gtest.h>
@@ -76,8 +76,8 @@ TEST(PaperStudy, KeepsTheBaseAsItIsForTheField) {
   EXPECT_EQ(PointsOf(study, Figure::kField).size(), 1u);
 }
 
-// Table I: 69 slots in flight take 69 * 112.876 W = 7788.4 J; 19 moves with the rest hovered would be the
-// most only where hovering is free to choose: 69 hovers take 69 * 219.82 W = 15167.6 J.
+// Table I: to fly in all 69 slots takes 69 * 112.876 W = 7788.4 J, the least. To hover in all of them would
+// take 69 * 219.82 W = 15167.6 J, the most.
 TEST(PaperStudy, SpansTheBudgetsFromTheLeastToTheMostThatAFlightCanUse) {
   EXPECT_EQ(BudgetOfShare(Base(), Figure::kEnergy, 0), 7789);
   EXPECT_EQ(BudgetOfShare(Base(), Figure::kEnergy, 1), 15168);

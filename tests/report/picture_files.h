@@ -1,4 +1,4 @@
-// What the tests of figures share: a look at the files of pictures.
+// What the tests of figures share: they look into files and scripts of pictures.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +14,13 @@ int FileCount(const std::filesystem::path& folder);
 /// Whether a strict parser of another project (expat, in Python) accepts the file.
 bool ParsesAsXml(const std::filesystem::path& path);
 
-/// Width and height in the header of a PNG with its signature and its last chunk; zeros where it is none.
+/// Returns width and height from the header of a PNG; zeros if the text does not begin and end like a PNG.
 std::pair<unsigned, unsigned> PngSize(const std::string& content);
 
 int Count(const std::string& text, const std::string& part);
 
-/// The numbers of the datablock `$name` of a gnuplot script, line by line; an empty line is an empty row.
+/// Returns the numbers of the datablock `$name` of a gnuplot script, line by line. An empty line is an empty
+/// row.
 std::vector<std::vector<double>> DataBlock(const std::string& script, const std::string& name);
 
 }  // namespace fresco

@@ -1,19 +1,19 @@
-// gnuplot as a process, and the pictures that it draws.
+// Runs gnuplot, and checks the pictures that it draws.
 #include "report/picture.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "tests/report/picture_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
 
-/// PATH is this folder for a while.
+/// Sets PATH to a folder until its end.
 class PathGuard {
  public:
   explicit PathGuard(const std::filesystem::path& path) : before_(std::getenv("PATH")) {

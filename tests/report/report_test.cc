@@ -21,14 +21,14 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// As gnuplot writes it: a symbol with an id, used by reference.
+/// Like a plot of gnuplot: a symbol with an id, and a reference to it.
 const char kPlot[] =
     "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
     "<svg viewBox=\"0 0 10 10\" xmlns=\"http://www.w3.org/2000/svg\" "
     "xmlns:xlink=\"http://www.w3.org/1999/xlink\">"
     "<defs><circle id='gpDot' r='1'/></defs><use xlink:href='#gpDot'/></svg>\n";
 
-/// All first groups of the pattern in the text.
+/// Returns the first group of every match of the pattern.
 std::vector<std::string> Matches(const std::string& text, const std::string& pattern) {
   const std::regex regex(pattern);
   std::vector<std::string> found;
@@ -38,7 +38,7 @@ std::vector<std::string> Matches(const std::string& text, const std::string& pat
   return found;
 }
 
-/// What a browser reads between a tag and the next end tag of a script.
+/// Returns what a browser takes for the data: the text up to the next end tag of a script.
 std::string FlightData(const std::string& page) {
   const std::string begin = "<script type=\"application/json\" id=\"flight-data\">";
   const size_t from = page.find(begin) + begin.size();
@@ -139,7 +139,7 @@ TEST_F(ReportTest, CarriesEverySlotOfEveryFlight) {
   }
 }
 
-// Eq. Dynamic-AoI: what is collected has AoI 1 in the next slot, and nothing else has.
+// Eq. Dynamic-AoI: exactly the collected data have AoI 1 in the next slot.
 TEST_F(ReportTest, SaysWhatIsCollected) {
   const Json data = Json::parse(FlightData(ReportPage(Everything())));
   const Json& slots = data["flights"][0]["flight"];

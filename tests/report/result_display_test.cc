@@ -1,4 +1,4 @@
-// What a person reads while a run is going and when it is over.
+// What people read during a run and at its end.
 #include "report/result_display.h"
 
 #include <gtest/gtest.h>

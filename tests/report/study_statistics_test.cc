@@ -62,18 +62,17 @@ StudyResult Unproved() {
 
 StudyResult Proved(double gap_percent) {
   StudyResult result = Unproved();
-  result.optimal_average_aoi = 10;
+  result.optimal = {10, 100};
   result.gap_percent = gap_percent;
   return result;
 }
 
 TEST(StudyResult, HasAGapOnlyToAProvedOptimum) {
   EXPECT_FALSE(Unproved().gap_percent);
-  EXPECT_FALSE(Unproved().optimal_average_aoi);
-  EXPECT_FALSE(Unproved().optimal_total_aoi);
+  EXPECT_FALSE(Unproved().optimal);
   EXPECT_EQ(Unproved().lower_bound_average_aoi, 2.5);
   const StudyResult proved = ResultWith(R"("optimal_average_aoi": 2.5, "optimal_total_aoi": 25)");
-  EXPECT_EQ(proved.optimal_total_aoi, 25);
+  EXPECT_EQ(proved.optimal->total_aoi, 25);
   EXPECT_EQ(proved.gap_percent, 380);
 }
 

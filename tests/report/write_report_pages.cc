@@ -14,6 +14,7 @@
 #include "msgs/experiment.h"
 #include "planner/planner.h"
 #include "report/report.h"
+#include "tests/worlds/table_one.h"
 #include "worlds/uav/baselines.h"
 
 namespace fresco {
@@ -38,7 +39,8 @@ std::string ReadText(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// A line a slot: flight, slot, column, row, move, scheduled, collected, then the AoI of every sensor.
+/// Returns a line for each slot: flight, slot, column, row, move, scheduled, collected, then the AoI of every
+/// sensor.
 std::string Csv(const World& world, const std::vector<ReportFlight>& flights) {
   std::string csv;
   for (const ReportFlight& flight : flights) {
@@ -92,7 +94,7 @@ void WriteRun(const std::filesystem::path& folder, const Experiment& experiment,
 }
 
 void WriteLarge(const std::filesystem::path& folder) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 100;
   scenario.slots = 1000;
   scenario.initial_energy_j = 300000;

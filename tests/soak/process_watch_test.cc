@@ -1,4 +1,4 @@
-// What /proc says of processes that this test makes itself.
+// What /proc says about processes that this test starts itself.
 #include "soak/process_watch.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// A soak finds what it is for: other weights, lost transitions, memory and descriptors that grow.
+// A soak finds other weights, lost transitions, and growing memory and descriptors.
 #include "soak/soak_checks.h"
 
 #include <gtest/gtest.h>

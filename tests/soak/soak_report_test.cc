@@ -1,4 +1,4 @@
-// A soak's verdict, and what it says where a round failed.
+// A soak's verdict, and what it says if a round failed.
 #include "soak/soak_report.h"
 
 #include <gtest/gtest.h>

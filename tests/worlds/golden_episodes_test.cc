@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/environment.h"
 
@@ -169,7 +170,7 @@ TEST(GoldenEpisodes, TightEnergyAllowsElevenHovers) {
 
 /// Everything that the others leave at its default.
 Scenario UnusualScenario() {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = 6;
   scenario.rows = 4;
   scenario.slots = 14;
