@@ -1,5 +1,5 @@
-// The paper's formulas of section II: the propulsion power of the rotary-wing UAV, and the radius from which a
-// sensor reaches it. Pure functions; any thread may call them.
+// The paper's formulas of section II: the propulsion power of the rotary-wing UAV, and the radius from which
+// a sensor reaches it. Pure functions; any thread may call them.
 #pragma once
 
 #include "worlds/uav/scenario.h"
