@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "actors/actor_memory.h"
-#include "core/clock.h"
 #include "core/error.h"
 #include "core/identifier.h"
 #include "msgs/protocol_times.h"
@@ -15,16 +13,25 @@
 namespace fresco {
 namespace {
 
-constexpr int64_t kLargestIndex = int64_t{1} << 32;
+double Milliseconds(int64_t us) {
+  return static_cast<double>(us) * 1e-3;
+}
+
+std::string Text(const RejectedMessages& rejected) {
+  std::string causes;
+  for (const auto& [count, cause] : {std::pair{rejected.malformed, "malformed"},
+                                     {rejected.foreign, "foreign"},
+                                     {rejected.stale, "stale"},
+                                     {rejected.inconsistent, "inconsistent"},
+                                     {rejected.unauthenticated, "unauthenticated"}}) {
+    if (count > 0) {
+      causes += fmt::format("{}{} {}", causes.empty() ? ": " : ", ", count, cause);
+    }
+  }
+  return fmt::format("{} rejected{}", rejected.total(), causes);
+}
 
 }  // namespace
-
-Actor::Session::Session(Experiment the_experiment, RunIdentity the_identity, int capacity)
-    : experiment(std::move(the_experiment)),
-      world(experiment.scenario()),
-      identity(the_identity),
-      store(experiment.network_shape().parameter_count()),
-      flyer(world, experiment, capacity) {}
 
 Actor::Actor(Bus& bus, const Channels& channels, ActorOptions options)
     : bus_(bus),
@@ -47,16 +54,16 @@ void Actor::Subscribe(const std::string& channel, void (Actor::*handle)(const Me
 
 void Actor::HandleRun(const run_t& message) {
   const RunIdentity identity = IdentityOf(message);
-  if (session_ != nullptr && session_->identity == identity) {
+  if (run_ != nullptr && run_->identity() == identity) {
     if (IsMine(identity, message.utime) && message.finished != 0) {
       spdlog::info("run {} is over", IdentifierText(identity.run_id));
-      session_.reset();
+      run_.reset();
       run_over_ = true;
     }
     return;
   }
   const bool wanted = message.run_id != 0 && (options_.run_id == 0 || options_.run_id == message.run_id);
-  if (!wanted || (session_ != nullptr && !WouldLeaveFor(message))) {
+  if (!wanted || (run_ != nullptr && !WouldLeaveFor(message))) {
     ++totals_.rejected.foreign;
     return;
   }
@@ -64,17 +71,17 @@ void Actor::HandleRun(const run_t& message) {
     return;
   }
   if (const auto text = announcements_.Add(message)) {
-    StartSession(message, *text);
+    Join(message, *text);
   }
 }
 
 /// Whether the run that is served is a recording, and the other one is not.
 bool Actor::WouldLeaveFor(const run_t& other) const {
   const int64_t now_utime = options_.wall_clock_us();
-  return IsCurrent(other.utime, now_utime) && !IsCurrent(session_->newest_utime, now_utime);
+  return IsCurrent(other.utime, now_utime) && !IsCurrent(run_->newest_utime(), now_utime);
 }
 
-void Actor::StartSession(const run_t& message, const std::string& text) {
+void Actor::Join(const run_t& message, const std::string& text) {
   try {
     if (message.protocol_version != kProtocolVersion) {
       throw UsageError(
@@ -94,14 +101,15 @@ void Actor::StartSession(const run_t& message, const std::string& text) {
     }
     const int capacity = options_.capacity.value_or(experiment.run().environments_per_actor());
     RefuseIfTooLarge({ActorMemory(experiment, capacity)}, options_.available_memory());
-    if (session_ != nullptr) {
+    if (run_ != nullptr) {
       spdlog::warn(
           "leaving run {}: its messages are not of now by this host's clock, those of another run are",
-          IdentifierText(session_->identity.run_id));
+          IdentifierText(run_->identity().run_id));
     }
-    session_ = std::make_unique<Session>(std::move(experiment), IdentityOf(message), capacity);
-    session_->last_heard_us = attention_.now_us();
-    session_->newest_utime = std::max<int64_t>(0, message.utime);
+    run_ =
+        std::make_unique<ServedRun>(std::move(experiment), IdentityOf(message), capacity,
+                                    [this](const OrderResult& result, bool again) { Send(result, again); });
+    run_->Hear(std::max<int64_t>(0, message.utime), attention_.now_us());
     ++totals_.runs;
     run_over_ = false;
     spdlog::info("serving run {}, configuration {:08x}, {} environments", IdentifierText(message.run_id),
@@ -121,83 +129,24 @@ void Actor::NoteRefusal(int64_t run_id, const char* reason) {
   }
 }
 
-/// Counts a message of the run that is served, and refuses all others. A stale one could undo the window or
-/// end the run. Where the learner's clock was set back everything is stale, and the actor joins again.
+/// Counts a message of the run that is served, and refuses all others.
 bool Actor::IsMine(RunIdentity identity, int64_t utime) {
-  if (session_ == nullptr) {
+  if (run_ == nullptr) {
     return false;
   }
-  if (session_->identity != identity) {
+  if (run_->identity() != identity) {
     ++totals_.rejected.foreign;
     return false;
   }
-  if (utime < session_->newest_utime - kStaleUs) {
-    ++totals_.rejected.stale;
-    return false;
-  }
-  session_->newest_utime = std::max(session_->newest_utime, utime);
-  session_->last_heard_us = attention_.now_us();
-  ++totals_.received_messages;
-  return true;
+  const bool newly = run_->Hear(utime, attention_.now_us());
+  ++(newly ? totals_.received_messages : totals_.rejected.stale);
+  return newly;
 }
 
 void Actor::HandleOrders(const orders_t& message) {
-  if (!IsMine(IdentityOf(message), message.utime)) {
-    return;
+  if (IsMine(IdentityOf(message), message.utime)) {
+    totals_.rejected.inconsistent += run_->HandleOrders(message, options_.actor_id, now_us_);
   }
-  if (message.committed_orders < 0 || message.committed_orders > kLargestIndex) {
-    ++totals_.rejected.inconsistent;
-    return;
-  }
-  KeepWindow(message.committed_orders);
-  const int64_t end = WindowEnd(message.committed_orders);
-  for (const order_t& wire : message.orders) {
-    Order order;
-    if (wire.actor_id != options_.actor_id || (wire.index >= 0 && wire.index < message.committed_orders)) {
-      continue;
-    }
-    if (FromWire(wire, order) && order.index < end) {
-      TakeOrder(order);
-    } else {
-      ++totals_.rejected.inconsistent;
-    }
-  }
-}
-
-/// The newest announcement of an order counts: what was flown for another order of that index, by a
-/// learner that is no more or a liar, is flown anew.
-void Actor::TakeOrder(const Order& order) {
-  const auto flown = session_->flown.find(order.index);
-  if (flown != session_->flown.end() && flown->second.order == order) {
-    SendAgain(flown->second);
-  } else if (!session_->flyer.IsFlying(order.index)) {
-    session_->waiting.insert_or_assign(order.index, order);
-  }
-}
-
-void Actor::SendAgain(Flown& flown) {
-  if (now_us_ - flown.sent_us >= kResendPeriodUs) {
-    flown.sent_us = now_us_;
-    ++totals_.resent_episodes;
-    Send(flown.result);
-  }
-}
-
-/// The index behind the last order that the learner can have written by now.
-int64_t Actor::WindowEnd(int64_t committed) const {
-  return committed + MaximumOrdersInFlight(session_->experiment.schedule().window());
-}
-
-/// Bounds memory, also where `committed` has gone back because the learner was resumed.
-void Actor::KeepWindow(int64_t committed) {
-  session_->committed = committed;
-  const int64_t end = WindowEnd(committed);
-  const auto keep = [&](auto& by_index) {
-    by_index.erase(by_index.begin(), by_index.lower_bound(committed));
-    by_index.erase(by_index.lower_bound(end), by_index.end());
-  };
-  keep(session_->waiting);
-  keep(session_->flown);
 }
 
 template <NetworkKind kind>
@@ -205,7 +154,7 @@ void Actor::HandleWeights(const weights_t& message) {
   if (!IsMine(IdentityOf(message), message.utime)) {
     return;
   }
-  NetworkStore& store = session_->store;
+  NetworkStore& store = run_->store();
   const NetworkStore::Arrival arrival = store.Add(kind, message, now_us_);
   if (arrival == NetworkStore::Arrival::kCompleted) {
     ++totals_.completed_versions;
@@ -219,58 +168,36 @@ bool Actor::Step(int64_t now_us) {
   now_us_ = now_us;
   attention_.Look(now_us);
   LeaveSilentRun();
-  if (session_ != nullptr) {
-    StartFlights();
-    session_->flyer.Step([this](const Order& order, OrderResult& result) { Finish(order, result); });
+  if (run_ != nullptr) {
+    run_->Step(now_us);
   }
   SendStatusIfDue(now_us);
-  return session_ != nullptr && !session_->flyer.Idle();
-}
-
-void Actor::Finish(const Order& order, OrderResult& result) {
-  Send(result);
-  ++totals_.episodes;
-  totals_.transitions += result.episode.transitions();
-  session_->flown.insert_or_assign(order.index, Flown{order, std::move(result), now_us_});
+  return run_ != nullptr && !run_->Idle();
 }
 
 /// Silence is what was listened to: a process that was stopped finds its messages waiting when it wakes.
 void Actor::LeaveSilentRun() {
-  if (session_ != nullptr && attention_.now_us() - session_->last_heard_us > kSilentRunUs) {
+  if (run_ != nullptr && attention_.now_us() - run_->last_heard_us() > kSilentRunUs) {
     spdlog::warn("nothing heard of run {} for {} s; looking for a run",
-                 IdentifierText(session_->identity.run_id), kSilentRunUs / 1'000'000);
-    session_.reset();
+                 IdentifierText(run_->identity().run_id), kSilentRunUs / 1'000'000);
+    run_.reset();
   }
 }
 
-void Actor::StartFlights() {
-  Session& session = *session_;
-  std::set<NetworkVersion> wanted;
-  for (auto it = session.waiting.begin(); it != session.waiting.end();) {
-    const Order& order = it->second;
-    const NetworkVersion current{NetworkKind::kCurrent, order.current_version};
-    const NetworkVersion target{NetworkKind::kTarget, order.target_version};
-    auto current_parameters = session.store.Find(current);
-    auto target_parameters = session.store.Find(target);
-    wanted.insert({current, target});
-    if (session.flyer.HasRoom() && current_parameters != nullptr && target_parameters != nullptr) {
-      session.flyer.Start(order, std::move(current_parameters), std::move(target_parameters));
-      it = session.waiting.erase(it);
-    } else {
-      ++it;
-    }
+void Actor::Send(const OrderResult& result, bool again) {
+  if (again) {
+    ++totals_.resent_episodes;
+  } else {
+    ++totals_.episodes;
+    totals_.transitions += result.episode.transitions();
   }
-  session.store.SetWanted(std::move(wanted));
-}
-
-void Actor::Send(const OrderResult& result) {
-  SplitResult(session_->world, result, options_.actor_id, [this](const transitions_t& message) {
-    bus_.Publish(channels_.transitions, message, session_->identity);
+  SplitResult(run_->world(), result, options_.actor_id, [this](const transitions_t& message) {
+    bus_.Publish(channels_.transitions, message, run_->identity());
   });
 }
 
 void Actor::SendStatusIfDue(int64_t now_us) {
-  const bool may_request = session_ != nullptr && now_us >= next_request_us_;
+  const bool may_request = run_ != nullptr && now_us >= next_request_us_;
   if (now_us < next_status_us_ && !may_request) {
     return;
   }
@@ -280,13 +207,53 @@ void Actor::SendStatusIfDue(int64_t now_us) {
     return;
   }
   status.sequence = next_sequence_++;
-  bus_.Publish(channels_.actor_status, status, session_ != nullptr ? session_->identity : RunIdentity{});
+  bus_.Publish(channels_.actor_status, status, run_ != nullptr ? run_->identity() : RunIdentity{});
   if (now_us >= next_status_us_) {
     next_status_us_ = now_us + kActorStatusPeriodUs;
     if (const std::string news = bus_.KeyMismatchNews(); !news.empty()) {
       spdlog::warn("{}", news);
     }
   }
+}
+
+actor_status_t Actor::Status(int64_t now_us) {
+  actor_status_t status{};
+  status.actor_id = options_.actor_id;
+  status.pid = options_.pid;
+  status.host = options_.host.substr(0, kMaximumHostBytes);
+  status.arithmetic_fingerprint = arithmetic_fingerprint_;
+  status.episodes = totals_.episodes;
+  status.transitions = totals_.transitions;
+  status.resent_episodes = totals_.resent_episodes;
+  status.rejected_messages = totals().rejected.total();
+  status.transitions_per_s = static_cast<float>(rate_.Measure(totals_.transitions, now_us));
+  status.weights_latency_ms = static_cast<float>(Milliseconds(totals_.longest_assembly_us));
+  status.oldest_open_order = -1;
+  if (run_ != nullptr) {
+    run_->WriteTo(status, now_us);
+  }
+  return status;
+}
+
+ActorTotals Actor::totals() const {
+  ActorTotals totals = totals_;
+  totals.rejected.malformed = bus_.malformed_messages();
+  totals.rejected.unauthenticated = bus_.unauthenticated_messages();
+  return totals;
+}
+
+std::string Actor::Description() const {
+  return fmt::format(
+      "actor {}: {} run(s) served, {} episodes, {} transitions, {} sent again, {} versions completed, "
+      "the slowest within {:.1f} ms, {} messages received, {}",
+      IdentifierText(options_.actor_id), totals_.runs, totals_.episodes, totals_.transitions,
+      totals_.resent_episodes, totals_.completed_versions, Milliseconds(totals_.longest_assembly_us),
+      totals_.received_messages, Text(totals().rejected));
+}
+
+std::string Actor::StateText() const {
+  return "state\n  " + Description() +
+         (run_ == nullptr ? "\n  waits for a run" : run_->StateText(attention_.now_us()));
 }
 
 }  // namespace fresco

@@ -1,24 +1,20 @@
-// An actor: finds a run on the bus, holds the networks that its orders name, flies the orders and
-// sends their transitions. Stays when a run is over and serves the next one. Everything happens on
-// the one thread that calls Step.
+// An actor: finds a run on the bus, serves it (actors/served_run.h), and tells the learner how it is. Stays
+// when a run is over and serves the next one. Everything happens on the one thread that calls Step.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "actors/network_store.h"
+#include "actors/served_run.h"
 #include "bus/bus.h"
-#include "core/attentive_clock.h"
-#include "core/available_memory.h"
 #include "core/clock.h"
+#include "core/memory.h"
 #include "msgs/channels.h"
 #include "msgs/message_bus.h"
 #include "msgs/run_announcements.h"
-#include "training/flyer.h"
 
 namespace fresco {
 
@@ -66,7 +62,7 @@ class Actor {
   bool Step(int64_t now_us);
 
   ActorTotals totals() const;
-  bool has_run() const { return session_ != nullptr; }
+  bool has_run() const { return run_ != nullptr; }
   /// Whether the run that it last served has ended.
   bool run_over() const { return run_over_; }
   /// The last line of the log: what it did in its life.
@@ -75,51 +71,18 @@ class Actor {
   std::string StateText() const;
 
  private:
-  /// A flown episode, to be sent again where its order is announced again.
-  struct Flown {
-    Order order;
-    OrderResult result;
-    int64_t sent_us = 0;
-  };
-
-  /// Everything that belongs to one run. Orders and episodes are kept within the window that the newest
-  /// orders_t tells of.
-  struct Session {
-    Session(Experiment the_experiment, RunIdentity the_identity, int capacity);
-    Experiment experiment;
-    World world;
-    RunIdentity identity;
-    NetworkStore store;
-    Flyer flyer;
-    int64_t committed = 0;             // orders below are done
-    std::map<int64_t, Order> waiting;  // by index: for networks or room
-    std::map<int64_t, Flown> flown;    // by index
-    int64_t last_heard_us = 0;         // by attention_
-    int64_t newest_utime = 0;          // of the learner's messages, by its clock
-  };
-
   void HandleRun(const run_t& message);
   void HandleOrders(const orders_t& message);
   template <NetworkKind kind>
   void HandleWeights(const weights_t& message);
-  void StartSession(const run_t& message, const std::string& text);
-  void TakeOrder(const Order& order);
-  int64_t WindowEnd(int64_t committed) const;
-  void KeepWindow(int64_t committed);
-  void StartFlights();
-  void Finish(const Order& order, OrderResult& result);
-  void SendAgain(Flown& flown);
-  void Send(const OrderResult& result);
-  void SendStatusIfDue(int64_t now_us);
-  void LeaveSilentRun();
-  void MeasureRate(int64_t now_us);
-  static int64_t OldestOpenOrder(const Session& session);
-  void AddSession(Session& session, int64_t now_us, actor_status_t& status) const;
-  actor_status_t Status(int64_t now_us);
-  std::string WaitsFor(const Order& order) const;
   bool IsMine(RunIdentity identity, int64_t utime);
   bool WouldLeaveFor(const run_t& other) const;
+  void Join(const run_t& message, const std::string& text);
   void NoteRefusal(int64_t run_id, const char* reason);
+  void LeaveSilentRun();
+  void Send(const OrderResult& result, bool again);
+  void SendStatusIfDue(int64_t now_us);
+  actor_status_t Status(int64_t now_us);
 
   template <class Message>
   void Subscribe(const std::string& channel, void (Actor::*handle)(const Message&));
@@ -130,7 +93,7 @@ class Actor {
   uint32_t arithmetic_fingerprint_;
   ActorTotals totals_;  // without what the bus refused
   RunAnnouncements announcements_;
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<ServedRun> run_;  // null: it waits for one
   bool run_over_ = false;
   int64_t refused_run_ = 0;  // the last run that this actor can't serve: said once
   int64_t next_refusal_us_ = 0;
@@ -139,9 +102,7 @@ class Actor {
   int64_t next_sequence_ = 0;  // of the statuses
   int64_t next_status_us_ = 0;
   int64_t next_request_us_ = 0;
-  int64_t rate_since_us_ = 0;
-  int64_t rate_transitions_ = 0;
-  float transitions_per_s_ = 0;
+  RateMeter rate_;  // of the transitions
 };
 
 }  // namespace fresco

@@ -1,19 +1,13 @@
 // The program fresco-actor: one actor process. It needs nothing but an LCM URL; see actors/actor.h.
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <cstdio>
-#include <iostream>
-
 #include "actors/actor.h"
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/clock.h"
 #include "core/command_line.h"
-#include "core/error.h"
 #include "core/identifier.h"
 #include "core/signals.h"
-#include "core/version.h"
 
 namespace fresco {
 namespace {
@@ -55,7 +49,7 @@ void Serve(const Arguments& arguments) {
   while (!StopSignal::Requested() && !(arguments.once && actor.run_over())) {
     const bool busy = actor.Step(MonotonicMicroseconds());
     bus->Poll(busy ? 0 : kWaitUs);
-    if (StateSignal::TakeRequest()) {
+    if (StateSignal::ConsumeRequest()) {
       spdlog::info("{}", actor.StateText());
     }
   }
@@ -64,11 +58,12 @@ void Serve(const Arguments& arguments) {
 
 int Main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app(
+  Program program(
+      "fresco-actor",
       "Flies episodes for Fresco's learner: waits for a run on the bus, serves it, and waits for the next "
       "one.",
-      "fresco-actor");
-  app.set_version_flag("--version", kSoftwareVersion);
+      LogStyle::kTimed);
+  CLI::App& app = program.command_line();
   app.add_option("--lcm-url", arguments.lcm_url, "LCM URL of the learner")->capture_default_str();
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
       ->capture_default_str();
@@ -78,27 +73,15 @@ int Main(int argc, char** argv) {
                  "Episodes flown side by side; 0: as the run's configuration says")
       ->check(CLI::Range(0, 4096));
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");
-  if (ParseCommandLine(app, argc, argv)) {
+  return program.Run(argc, argv, [&] {
     Serve(arguments);
-  }
-  return 0;
+    return 0;
+  });
 }
 
 }  // namespace
 }  // namespace fresco
 
 int main(int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_logger_st("fresco-actor"));
-  spdlog::set_pattern("%H:%M:%S %n[%P] %l: %v");
-  fresco::StopSignal::Install();
-  fresco::StateSignal::Install();
-  try {
-    return fresco::Main(argc, argv);
-  } catch (const fresco::Error& error) {
-    spdlog::error("{}", error.what());
-    return error.exit_status();
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return 1;
-  }
+  return fresco::Main(argc, argv);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 
 namespace fresco {
 namespace {
@@ -12,15 +12,6 @@ namespace {
 constexpr size_t kSpareVersions = 8;
 // If the learner sends no chunk of a version for so long, it has dropped the version or never made it.
 constexpr int64_t kGivenUpUs = 500'000;
-
-chunk_range_t Range(NetworkVersion version, int first, int count) {
-  chunk_range_t range{};
-  range.network = static_cast<int8_t>(version.first);
-  range.version = version.second;
-  range.first = first;
-  range.count = count;
-  return range;
-}
 
 }  // namespace
 
@@ -59,8 +50,7 @@ NetworkStore::Arrival NetworkStore::Add(NetworkKind kind, const weights_t& messa
 
 NetworkStore::Arrival NetworkStore::Complete(NetworkVersion version, const Assembly& assembly,
                                              int64_t now_us) {
-  const std::span<const float> values(assembly.values->data(), static_cast<size_t>(parameters_));
-  if (Crc32c(values) != static_cast<uint32_t>(assembly.crc32c)) {
+  if (Crc32c(Values(*assembly.values)) != static_cast<uint32_t>(assembly.crc32c)) {
     versions_.erase(version);  // some chunk was corrupt: ask for all of them again
     return Arrival::kRejected;
   }
@@ -97,7 +87,7 @@ void NetworkStore::MakeRoom() {
   std::vector<std::tuple<int64_t, int32_t, NetworkKind>> unwanted;
   for (const auto& [version, assembly] : versions_) {
     if (!wanted_.contains(version)) {
-      unwanted.emplace_back(assembly.last_arrival_us, version.second, version.first);
+      unwanted.emplace_back(assembly.last_arrival_us, version.number, version.kind);
     }
   }
   std::sort(unwanted.begin(), unwanted.end());
@@ -110,8 +100,8 @@ void NetworkStore::SetWanted(std::set<NetworkVersion> wanted) {
   wanted_ = std::move(wanted);
   for (const NetworkKind kind : {NetworkKind::kCurrent, NetworkKind::kTarget}) {
     const auto oldest = wanted_.lower_bound({kind, 0});
-    if (oldest != wanted_.end() && oldest->first == kind) {
-      oldest_wanted_[kind] = oldest->second;
+    if (oldest != wanted_.end() && oldest->kind == kind) {
+      oldest_wanted_[kind] = oldest->number;
     }
   }
 }
@@ -129,7 +119,7 @@ std::vector<chunk_range_t> NetworkStore::MissingRanges(int64_t now_us) {
     if (found == versions_.end()) {
       const int64_t since_us = asked_us_.try_emplace(version, now_us).first->second;
       if (now_us - since_us >= kQuietVersionUs && ranges.size() < kMaximumMissingRanges) {
-        ranges.push_back(Range(version, 0, ChunkCount(parameters_)));
+        ranges.push_back(ChunkRange(version, 0, ChunkCount(parameters_)));
       }
     } else if (!found->second.complete() && now_us - found->second.last_arrival_us >= kQuietVersionUs) {
       AppendMissing(version, found->second, ranges);
@@ -145,9 +135,9 @@ std::vector<chunk_range_t> NetworkStore::MissingRanges(int64_t now_us) {
 
 bool NetworkStore::IsOnItsWay(NetworkVersion version, const Assembly& assembly, int64_t now_us) const {
   const int64_t quiet_us = now_us - assembly.last_arrival_us;
-  const auto oldest = oldest_wanted_.find(version.first);
+  const auto oldest = oldest_wanted_.find(version.kind);
   return !assembly.complete() && !wanted_.contains(version) && quiet_us >= kQuietVersionUs &&
-         quiet_us < kGivenUpUs && (oldest == oldest_wanted_.end() || version.second >= oldest->second);
+         quiet_us < kGivenUpUs && (oldest == oldest_wanted_.end() || version.number >= oldest->second);
 }
 
 void NetworkStore::AppendMissing(NetworkVersion version, const Assembly& assembly,
@@ -159,7 +149,7 @@ void NetworkStore::AppendMissing(NetworkVersion version, const Assembly& assembl
       while (end < chunks && assembly.received[static_cast<size_t>(end)] == 0) {
         ++end;
       }
-      ranges.push_back(Range(version, first, end - first));
+      ranges.push_back(ChunkRange(version, first, end - first));
       first = end;
     }
   }
@@ -174,7 +164,7 @@ std::vector<chunk_range_t> NetworkStore::HeldVersions() const {
   std::vector<chunk_range_t> held;
   for (auto it = versions_.rbegin(); it != versions_.rend() && held.size() < kMaximumHeldVersions; ++it) {
     if (it->second.complete()) {
-      held.push_back(Range(it->first, 0, static_cast<int>(it->second.received.size())));
+      held.push_back(ChunkRange(it->first, 0, static_cast<int>(it->second.received.size())));
     }
   }
   return held;

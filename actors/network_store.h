@@ -1,5 +1,5 @@
 // The network store holds the network versions of one run that an actor has or is assembling from chunks. It
-// hands a version out only if every chunk is there and the CRC of the whole is right, so an actor never uses
+// hands a version out only if every chunk is there and the CRC of all values is right, so an actor never uses
 // a mixed or damaged network. Memory is bounded. All times are monotonic microseconds. An actor owns one for
 // each run that it serves. Not thread-safe.
 #pragma once
@@ -8,7 +8,6 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "msgs/protocol_times.h"
@@ -16,9 +15,6 @@
 #include "nn/mlp.h"
 
 namespace fresco {
-
-/// One version of one of the two networks.
-using NetworkVersion = std::pair<NetworkKind, int32_t>;
 
 class NetworkStore {
  public:
@@ -33,11 +29,11 @@ class NetworkStore {
     kDuplicate,  ///< the chunk was there already
     kCompleted,  ///< it was the last missing chunk, and the CRC is right
     kRestarted,  ///< it has another CRC than the chunks before; these were discarded and assembly began again
-    kRejected,   ///< it contradicts the network's size or a complete version, or the CRC of the whole is
-                 ///< wrong
+    kRejected,   ///< it contradicts the network's size or a complete version, or the CRC of all
+                 ///< values is wrong
   };
 
-  /// Takes a chunk of a network of this kind that arrived at `now_us`. If the version is new and there is no
+  /// Adds a chunk of a network of this kind that arrived at `now_us`. If the version is new and there is no
   /// room, the store forgets a version that SetWanted did not name.
   Arrival Add(NetworkKind kind, const weights_t& message, int64_t now_us);
 

@@ -11,10 +11,18 @@
 #include <memory>
 #include <span>
 #include <string>
-
-#include "bus/lcm_event.h"
+#include <string_view>
 
 namespace fresco {
+
+/// One message as it was on the bus, or as an event log of LCM stores it. `channel` and `message` point into
+/// memory of the object that handed the event out, which says how long they are valid.
+struct LcmEvent {
+  int64_t number = 0;  ///< 0, 1, .. in the order of the log, or in the order of arrival on a bus
+  int64_t utime = 0;   ///< time of arrival, microseconds since the epoch
+  std::string_view channel = {};
+  std::span<const std::byte> message = {};
+};
 
 /// Called with one message. The bytes are valid during the call only.
 using BusHandler = std::function<void(std::span<const std::byte> message)>;

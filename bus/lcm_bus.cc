@@ -12,14 +12,12 @@
 #include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "bus/bus.h"
-#include "bus/lcm_datagram.h"
 #include "bus/lcm_url.h"
+#include "bus/message_assembler.h"
 #include "bus/multicast_listener.h"
 #include "bus/receive_filter.h"
-#include "core/check.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -60,11 +58,10 @@ using Lcm = std::unique_ptr<lcm_t, LcmDestroyer>;
 
 class LcmBus : public Bus {
  public:
-  explicit LcmBus(const std::string& url)
-      : url_(NormalizeLcmUrl(url)), multicast_(MulticastEndpointOf(url_)), lcm_(lcm_create(url_.c_str())) {
+  explicit LcmBus(const std::string& url) : url_(ParseLcmUrl(url)), lcm_(lcm_create(url_.text.c_str())) {
     // With tcpq LCM reports success although nobody answers; there is no descriptor then.
-    if (lcm_ == nullptr || (!multicast_ && lcm_get_fileno(lcm_.get()) < 0)) {
-      throw UsageError(fmt::format("can't open the LCM URL {}: {}", url_, Remedy(url_)));
+    if (lcm_ == nullptr || (!url_.multicast && lcm_get_fileno(lcm_.get()) < 0)) {
+      throw UsageError(fmt::format("can't open the LCM URL {}: {}", url_.text, Remedy(url_.text)));
     }
   }
 
@@ -85,7 +82,7 @@ class LcmBus : public Bus {
 
   void Subscribe(const std::string& channel, BusHandler handler, int queue_capacity) override {
     CheckChannel(channel);
-    if (multicast_) {
+    if (url_.multicast) {
       LetThrough(channel);
     }
     SubscribeTo(
@@ -94,7 +91,7 @@ class LcmBus : public Bus {
   }
 
   void SubscribeToAll(BusEventHandler handler) override {
-    if (multicast_) {
+    if (url_.multicast) {
       Listen();
       hear_all_ = std::move(handler);
     } else {
@@ -140,7 +137,7 @@ class LcmBus : public Bus {
               RefuseToSubscribe(channel);
             }
           },
-          multicast_->port));
+          url_.multicast->port));
     }
     filter_->Pass(channel);
   }
@@ -149,7 +146,7 @@ class LcmBus : public Bus {
     FRESCO_CHECK(listener_ == nullptr);
     {
       const std::lock_guard lock(ReceivingSockets());
-      listener_ = std::make_unique<MulticastListener>(*multicast_);
+      listener_ = std::make_unique<MulticastListener>(*url_.multicast);
     }
     // LCM sends the same message to itself when it opens its socket.
     const std::string channel = "LCM_SELF_TEST";
@@ -163,7 +160,7 @@ class LcmBus : public Bus {
     throw UsageError(
         fmt::format("LCM can't subscribe to {} on {}: multicast packets that it sends do not come back; a "
                     "firewall may drop them (allow UDP to 224.0.0.0/4), or {}",
-                    channels, url_, Remedy(url_)));
+                    channels, url_.text, Remedy(url_.text)));
   }
 
   void SubscribeTo(const std::string& channels, BusEventHandler handler, int queue_capacity) {
@@ -189,7 +186,7 @@ class LcmBus : public Bus {
 
   int HandleOne() {
     if (lcm_handle(lcm_.get()) != 0) {
-      throw Failure("the connection of " + url_ + " was lost");
+      throw Failure("the connection of " + url_.text + " was lost");
     }
     if (exception_) {
       std::rethrow_exception(std::exchange(exception_, nullptr));
@@ -200,12 +197,12 @@ class LcmBus : public Bus {
   /// The descriptor that becomes readable when LCM has a message. -1 if LCM does not receive yet; LCM must
   /// not be asked for it then, since it would open its socket.
   int LcmDescriptor() const {
-    if (multicast_ && !filter_) {
+    if (url_.multicast && !filter_) {
       return -1;
     }
     const int descriptor = lcm_get_fileno(lcm_.get());
     if (descriptor < 0) {
-      throw Failure("the connection of " + url_ + " was lost");
+      throw Failure("the connection of " + url_.text + " was lost");
     }
     return descriptor;
   }
@@ -221,8 +218,7 @@ class LcmBus : public Bus {
     return {any && descriptors[0].revents != 0, left_over || (any && descriptors[1].revents != 0)};
   }
 
-  std::string url_;
-  std::optional<MulticastEndpoint> multicast_;  // set if the URL is udpm
+  LcmUrl url_;
   std::mutex publish_mutex_;
   std::deque<Subscription> subscriptions_;  // a deque, since LCM holds pointers to the elements
   std::exception_ptr exception_;

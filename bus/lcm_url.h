@@ -8,11 +8,6 @@
 
 namespace fresco {
 
-/// Returns the URL in the form that LCM gets. A udpm URL gets ttl=0 and a receive buffer of 4 MB if it does
-/// not say otherwise. Throws UsageError if the URL is not a valid udpm://, tcpq:// or memq:// URL, or has an
-/// option that LCM would silently ignore; the error names the wrong part and gives an example.
-std::string NormalizeLcmUrl(const std::string& url);
-
 /// Where a udpm URL sends and receives.
 struct MulticastEndpoint {
   std::string group;  ///< IPv4 address of the multicast group
@@ -20,7 +15,14 @@ struct MulticastEndpoint {
   int receive_buffer_bytes = 0;
 };
 
-/// Returns the endpoint of a normalized URL; nullopt if it is not a udpm URL.
-std::optional<MulticastEndpoint> MulticastEndpointOf(const std::string& url);
+struct LcmUrl {
+  std::string text;                                 ///< in the form that LCM gets
+  std::optional<MulticastEndpoint> multicast = {};  ///< set if it is a udpm URL
+};
+
+/// Reads a URL. A udpm URL gets ttl=0 and a receive buffer of 4 MB if it does not say otherwise. Throws
+/// UsageError if the URL is not a valid udpm://, tcpq:// or memq:// URL, or has an option that LCM would
+/// silently ignore; the error names the wrong part and gives an example.
+LcmUrl ParseLcmUrl(const std::string& url);
 
 }  // namespace fresco

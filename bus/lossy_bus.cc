@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/check.h"
 #include "core/error.h"
 #include "core/random.h"
 

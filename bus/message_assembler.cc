@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "bus/lcm_datagram.h"
-#include "core/big_endian.h"
+#include "core/bytes.h"
 
 namespace fresco {
 namespace {
@@ -23,18 +22,18 @@ std::optional<std::string_view> ChannelOf(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-std::optional<AssembledMessage> MessageAssembler::Take(std::span<const std::byte> datagram, uint64_t sender,
-                                                       int64_t utime) {
+std::optional<AssembledMessage> MessageAssembler::Add(std::span<const std::byte> datagram, uint64_t sender,
+                                                      int64_t utime) {
   GiveUpTheSilent(utime);
   if (datagram.size() < kWholeMessageHeaderBytes) {
     return Refuse();
   }
   const auto magic = ReadBigEndian<uint32_t>(datagram.data());
   if (magic == kWholeMessageMagic) {
-    return TakeWhole(datagram);
+    return AddWhole(datagram);
   }
   const auto fragment = magic == kFragmentMagic ? ParseFragment(datagram) : std::nullopt;
-  return fragment ? TakeFragment(*fragment, sender, utime) : Refuse();
+  return fragment ? AddFragment(*fragment, sender, utime) : Refuse();
 }
 
 std::optional<AssembledMessage> MessageAssembler::Refuse() {
@@ -42,7 +41,7 @@ std::optional<AssembledMessage> MessageAssembler::Refuse() {
   return std::nullopt;
 }
 
-std::optional<AssembledMessage> MessageAssembler::TakeWhole(std::span<const std::byte> datagram) {
+std::optional<AssembledMessage> MessageAssembler::AddWhole(std::span<const std::byte> datagram) {
   const auto rest = datagram.subspan(kWholeMessageHeaderBytes);
   const auto channel = ChannelOf(rest);
   if (!channel) {
@@ -79,16 +78,16 @@ std::optional<MessageAssembler::Fragment> MessageAssembler::ParseFragment(
   return fits ? std::optional(fragment) : std::nullopt;
 }
 
-std::optional<AssembledMessage> MessageAssembler::TakeFragment(const Fragment& fragment, uint64_t sender,
-                                                               int64_t utime) {
+std::optional<AssembledMessage> MessageAssembler::AddFragment(const Fragment& fragment, uint64_t sender,
+                                                              int64_t utime) {
   const auto message = FindOrBegin(fragment, sender);
   if (!Agrees(*message, fragment)) {
     return Refuse();
   }
   message->touched_utime = utime;
   messages_.splice(messages_.end(), messages_, message);
-  Add(fragment, *message);
-  if (message->places.size() == message->count) {
+  Store(fragment, *message);
+  if (message->parts.size() == message->count) {
     return Finish(message);
   }
   while (memory_bytes_ > memory_limit_bytes_ && messages_.size() > 1) {
@@ -114,68 +113,52 @@ bool MessageAssembler::Agrees(const Incomplete& message, const Fragment& fragmen
   if (fragment.message_bytes != message.message_bytes || fragment.count != message.count) {
     return false;
   }
-  const auto next = message.places.lower_bound(fragment.number);
-  if (next != message.places.end() && next->first == fragment.number) {
-    return IsAtPlace(message, next->second, fragment);
+  const auto next = message.parts.lower_bound(fragment.number);
+  if (next != message.parts.end() && next->first == fragment.number) {
+    return Repeats(message, next->second, fragment);
   }
   const bool ends_before_next =
-      next == message.places.end() || fragment.offset + fragment.data.size() <= next->second.offset;
-  if (next == message.places.begin()) {
+      next == message.parts.end() || fragment.offset + fragment.data.size() <= next->second.offset;
+  if (next == message.parts.begin()) {
     return ends_before_next;
   }
-  const Place& previous = std::prev(next)->second;
-  return ends_before_next && previous.offset + previous.bytes <= fragment.offset;
+  const Part& previous = std::prev(next)->second;
+  return ends_before_next && previous.offset + previous.data.size() <= fragment.offset;
 }
 
-bool MessageAssembler::IsAtPlace(const Incomplete& message, const Place& place, const Fragment& fragment) {
-  const auto arrived = std::span(message.arrived).subspan(place.arrived_at, place.bytes);
-  return place.offset == fragment.offset && (fragment.number != 0 || message.channel == fragment.channel) &&
-         std::equal(arrived.begin(), arrived.end(), fragment.data.begin(), fragment.data.end());
+bool MessageAssembler::Repeats(const Incomplete& message, const Part& part, const Fragment& fragment) {
+  return part.offset == fragment.offset && (fragment.number != 0 || message.channel == fragment.channel) &&
+         std::equal(part.data.begin(), part.data.end(), fragment.data.begin(), fragment.data.end());
 }
 
-/// Adds a fragment that fits the message, unless it is there already.
-void MessageAssembler::Add(const Fragment& fragment, Incomplete& message) {
-  if (message.places.contains(fragment.number)) {
+/// Stores a fragment that fits the message, unless it is there already.
+void MessageAssembler::Store(const Fragment& fragment, Incomplete& message) {
+  if (message.parts.contains(fragment.number)) {
     return;
   }
-  const Place place{fragment.offset, static_cast<uint32_t>(fragment.data.size()), message.arrived.size()};
-  const size_t wanted = message.arrived.size() + fragment.data.size();
   memory_bytes_ -= MemoryBytes(message);
-  message.places.emplace(fragment.number, place);
+  message.parts.emplace(fragment.number, Part{fragment.offset, {fragment.data.begin(), fragment.data.end()}});
+  message.arrived_bytes += fragment.data.size();
   if (fragment.number == 0) {
     message.channel = fragment.channel;
   }
-  if (wanted > message.arrived.capacity()) {  // fragments do not overlap, so it is at most message_bytes
-    message.arrived.reserve(std::max(wanted, std::min<size_t>(2 * wanted, message.message_bytes)));
-  }
-  message.arrived.insert(message.arrived.end(), fragment.data.begin(), fragment.data.end());
   memory_bytes_ += MemoryBytes(message);
 }
 
 /// Called when all fragments are there. They ascend and do not overlap, so they leave no hole if and only if
 /// together they are as long as the message.
 std::optional<AssembledMessage> MessageAssembler::Finish(Messages::iterator message) {
-  Incomplete finished = Remove(message);
-  if (finished.arrived.size() != finished.message_bytes) {
+  const Incomplete finished = Remove(message);
+  if (finished.arrived_bytes != finished.message_bytes) {
     ++given_up_;
     return std::nullopt;
   }
-  std::string channel = std::move(finished.channel);
-  return AssembledMessage{std::move(channel), InOrder(std::move(finished))};
-}
-
-std::vector<std::byte> MessageAssembler::InOrder(Incomplete message) {
-  if (std::all_of(message.places.begin(), message.places.end(),
-                  [](const auto& entry) { return entry.second.offset == entry.second.arrived_at; })) {
-    return std::move(message.arrived);
+  AssembledMessage assembled{finished.channel, {}};
+  assembled.content.reserve(finished.arrived_bytes);
+  for (const auto& [number, part] : finished.parts) {
+    assembled.content.insert(assembled.content.end(), part.data.begin(), part.data.end());
   }
-  std::vector<std::byte> ordered;
-  ordered.reserve(message.arrived.size());
-  for (const auto& [number, place] : message.places) {
-    const auto data = std::span(message.arrived).subspan(place.arrived_at, place.bytes);
-    ordered.insert(ordered.end(), data.begin(), data.end());
-  }
-  return ordered;
+  return assembled;
 }
 
 MessageAssembler::Incomplete MessageAssembler::Remove(Messages::iterator message) {
@@ -196,8 +179,8 @@ void MessageAssembler::GiveUpTheSilent(int64_t utime) {
 /// A message's memory, including roughly what the containers need for their entries.
 size_t MessageAssembler::MemoryBytes(const Incomplete& message) {
   constexpr size_t kMessageBytes = sizeof(Incomplete) + 256;
-  constexpr size_t kPlaceBytes = 80;
-  return kMessageBytes + kPlaceBytes * message.places.size() + message.arrived.capacity();
+  constexpr size_t kPartBytes = 128;
+  return kMessageBytes + kPartBytes * message.parts.size() + message.arrived_bytes;
 }
 
 }  // namespace fresco

@@ -1,6 +1,16 @@
-// Assembles LCM's messages from datagrams (bus/lcm_datagram.h). Anybody may have sent the datagrams, so every
-// number in them is checked, and only bytes that have arrived take memory. No I/O, no clock. Only one thread
-// may use an object; the thread of MulticastListener does.
+// Assembles LCM's messages from datagrams. Anybody may have sent the datagrams, so every number in them is
+// checked, and only bytes that have arrived take memory. No I/O, no clock. Only one thread may use an object;
+// the thread of MulticastListener does.
+//
+// The format of the datagrams that LCM sends over UDP multicast. A datagram is a whole message or a fragment
+// of one. All numbers are big-endian, and a zero byte ends the channel's name:
+//
+//   whole message: "LC02", uint32 sequence, channel, content
+//   fragment:      "LC03", uint32 sequence, uint32 message_bytes, uint32 offset, uint16 number, uint16 count,
+//                  in fragment 0 the channel, data
+//
+// `message_bytes` is the size of the whole content, and `offset` is the position of the fragment's data in
+// it. Fragments with the same sender and sequence belong to the same message.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +25,15 @@
 #include <vector>
 
 namespace fresco {
+
+inline constexpr uint32_t kWholeMessageMagic = 0x4C433032;  // "LC02"
+inline constexpr uint32_t kFragmentMagic = 0x4C433033;      // "LC03"
+inline constexpr size_t kWholeMessageHeaderBytes = 8;
+inline constexpr size_t kFragmentHeaderBytes = 20;
+/// The length of the longest channel name, without the zero byte.
+inline constexpr size_t kMaximumLcmChannelBytes = 63;
+/// The size of the largest content that LCM sends.
+inline constexpr uint32_t kMaximumLcmMessageBytes = uint32_t{1} << 28;
 
 struct AssembledMessage {
   std::string channel;  ///< 1 to kMaximumLcmChannelBytes bytes
@@ -32,7 +51,7 @@ class MessageAssembler {
   explicit MessageAssembler(size_t memory_limit_bytes = kMemoryBytes)
       : memory_limit_bytes_(memory_limit_bytes) {}
 
-  /// Takes a datagram and returns a message if the datagram is a whole message or completes one; otherwise
+  /// Adds a datagram and returns a message if the datagram is a whole message or completes one; otherwise
   /// nullopt. `sender` is the sender's IPv4 address and port as one number, `utime` the time of arrival in
   /// microseconds.
   ///
@@ -40,7 +59,7 @@ class MessageAssembler {
   /// contradicts an earlier one of the same message: by its message's size or count, by other data under the
   /// same number, or by an overlap. An exact repetition of a fragment changes nothing. If the memory limit is
   /// reached, gives up the message that has waited longest for a fragment.
-  std::optional<AssembledMessage> Take(std::span<const std::byte> datagram, uint64_t sender, int64_t utime);
+  std::optional<AssembledMessage> Add(std::span<const std::byte> datagram, uint64_t sender, int64_t utime);
 
   int64_t refused_datagrams() const { return refused_datagrams_; }
   /// The number of messages that began and did not become complete: those given up, those whose fragments
@@ -62,11 +81,9 @@ class MessageAssembler {
     std::string_view channel = {};  // empty unless this is fragment 0
   };
 
-  /// Where a fragment's data are: `offset` in the message, `arrived_at` in Incomplete::arrived.
-  struct Place {
+  struct Part {
     uint32_t offset;
-    uint32_t bytes;
-    size_t arrived_at;
+    std::vector<std::byte> data;
   };
 
   struct Incomplete {
@@ -75,22 +92,21 @@ class MessageAssembler {
     uint16_t count;
     int64_t touched_utime = 0;
     std::string channel = {};
-    std::map<uint16_t, Place> places = {};  // by fragment number; the offsets ascend, too
-    std::vector<std::byte> arrived = {};
+    std::map<uint16_t, Part> parts = {};  // by fragment number; the offsets ascend, too
+    size_t arrived_bytes = 0;             // of all parts together
   };
   using Messages = std::list<Incomplete>;
 
   static std::optional<Fragment> ParseFragment(std::span<const std::byte> datagram);
   static bool Agrees(const Incomplete& message, const Fragment& fragment);
-  static bool IsAtPlace(const Incomplete& message, const Place& place, const Fragment& fragment);
+  static bool Repeats(const Incomplete& message, const Part& part, const Fragment& fragment);
   static size_t MemoryBytes(const Incomplete& message);
-  static std::vector<std::byte> InOrder(Incomplete message);
 
-  std::optional<AssembledMessage> TakeWhole(std::span<const std::byte> datagram);
-  std::optional<AssembledMessage> TakeFragment(const Fragment& fragment, uint64_t sender, int64_t utime);
+  std::optional<AssembledMessage> AddWhole(std::span<const std::byte> datagram);
+  std::optional<AssembledMessage> AddFragment(const Fragment& fragment, uint64_t sender, int64_t utime);
   std::optional<AssembledMessage> Refuse();
   Messages::iterator FindOrBegin(const Fragment& fragment, uint64_t sender);
-  void Add(const Fragment& fragment, Incomplete& message);
+  void Store(const Fragment& fragment, Incomplete& message);
   std::optional<AssembledMessage> Finish(Messages::iterator message);
   Incomplete Remove(Messages::iterator message);
   void GiveUpTheSilent(int64_t utime);

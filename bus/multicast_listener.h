@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
@@ -16,9 +17,14 @@
 #include "bus/bus.h"
 #include "bus/lcm_url.h"
 #include "bus/message_assembler.h"
-#include "bus/multicast_socket.h"
 
 namespace fresco {
+
+/// What to do if a multicast group can't be joined, for an error's text.
+inline constexpr char kMulticastRemedy[] =
+    "most likely there is no route for multicast, or another program has taken the port; to add a "
+    "route, run as root: ip route add 224.0.0.0/4 dev lo (without root: run unshare -Urn, and in its "
+    "shell ip link set lo up and then the same command)";
 
 /// A descriptor for poll(2) that is readable from Set until Clear. Any thread may use it.
 class EventDescriptor {
@@ -38,8 +44,10 @@ class EventDescriptor {
 
 class MulticastListener {
  public:
-  /// Starts to listen. Throws UsageError as MulticastSocket does.
+  /// Joins the group and starts to listen; from now on no message is missed. Throws UsageError that says what
+  /// to do if the group can't be joined.
   explicit MulticastListener(const MulticastEndpoint& endpoint);
+  ~MulticastListener();
 
   /// Tests whether the socket receives: calls `send`, which sends a message on this channel, every 0.1 s
   /// until such a message arrives. Returns false if none arrives within ten seconds. Drops that message and
@@ -60,16 +68,18 @@ class MulticastListener {
   UnheardTraffic unheard() const;
 
  private:
+  class Socket;
+  struct Datagram;
   struct Arrived {
     int64_t utime;
     AssembledMessage message;
   };
 
   void Listen(const std::stop_token& stop);
-  void Take(const ReceivedDatagram& received);
+  void Assemble(const Datagram& received);
 
-  MulticastSocket socket_;      // used by the listening thread only
-  MessageAssembler assembler_;  // used by the listening thread only
+  std::unique_ptr<Socket> socket_;  // used by the listening thread only
+  MessageAssembler assembler_;      // used by the listening thread only
 
   std::deque<Arrived> taken_;  // taken from arrived_ by HandOut and not handed out yet
   int64_t handed_out_ = 0;

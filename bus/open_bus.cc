@@ -1,10 +1,22 @@
 #include "bus/open_bus.h"
 
+#include <CLI/CLI.hpp>
 #include <utility>
 
-#include "bus/authenticated_bus.h"
-
 namespace fresco {
+
+void AddKeyFileOption(CLI::App& app, KeyFile& key_file) {
+  app.add_option_function<std::string>(
+      "--key-file", [&key_file](const std::string& file) { key_file = file; },
+      "File with the run's key: accept only messages that are authenticated with it");
+}
+
+void AddBusOptions(CLI::App& app, BusOptions& options) {
+  AddKeyFileOption(app, options.key_file);
+  app.add_option_function<std::string>(
+      "--disturb", [&options](const std::string& text) { options.disturbance = ParseLossOptions(text); },
+      "For tests: lose, repeat, delay and corrupt sent messages, e.g. drop=0.01,delay=0.05,seed=3");
+}
 
 std::unique_ptr<Bus> OpenBus(const std::string& url, const BusOptions& options) {
   std::optional<AuthenticationKey> key;

@@ -1,14 +1,19 @@
-// Opens the bus of a program: LCM, wrapped as the command line says. These options are not part of an
-// experiment's configuration, since that is sent to everybody.
+// Opens the bus of a program: LCM, wrapped as the command line says. The options are the same in every
+// program. They are not part of an experiment's configuration, since that is sent to everybody. Any thread
+// may call these functions.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "bus/authentication_key.h"
+#include "bus/authenticated_bus.h"
 #include "bus/bus.h"
 #include "bus/lossy_bus.h"
+
+namespace CLI {
+class App;
+}
 
 namespace fresco {
 
@@ -18,7 +23,13 @@ struct BusOptions {
                                                 ///< runs
 };
 
-/// Opens the bus. Any thread may call it. Throws UsageError as OpenLcmBus does, and if the key file can't be
+/// Adds --key-file, whose value parsing writes to `key_file`.
+void AddKeyFileOption(CLI::App& app, KeyFile& key_file);
+
+/// Adds --key-file and --disturb, whose values parsing writes to `options`.
+void AddBusOptions(CLI::App& app, BusOptions& options);
+
+/// Opens the bus. Throws UsageError as OpenLcmBus does, and if the key file can't be
 /// used.
 std::unique_ptr<Bus> OpenBus(const std::string& url, const BusOptions& options);
 

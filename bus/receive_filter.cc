@@ -14,8 +14,8 @@
 #include <span>
 #include <system_error>
 
-#include "bus/lcm_datagram.h"
-#include "core/big_endian.h"
+#include "bus/message_assembler.h"
+#include "core/bytes.h"
 #include "core/error.h"
 
 namespace fresco {

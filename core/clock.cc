@@ -1,5 +1,6 @@
 #include "core/clock.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -25,6 +26,25 @@ int64_t ThreadProcessorMicroseconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return int64_t{time.tv_sec} * 1'000'000 + time.tv_nsec / 1000;
+}
+
+int64_t AttentiveClock::Look(int64_t monotonic_us) {
+  if (looked_) {
+    now_us_ += std::clamp<int64_t>(monotonic_us - last_look_us_, 0, kLongestGapUs);
+  }
+  looked_ = true;
+  last_look_us_ = monotonic_us;
+  return now_us_;
+}
+
+double RateMeter::Measure(int64_t count, int64_t now_us) {
+  constexpr int64_t kPeriodUs = 1'000'000;
+  if (now_us - since_us_ >= kPeriodUs) {
+    per_s_ = static_cast<double>(count - since_count_) / (static_cast<double>(now_us - since_us_) * 1e-6);
+    since_us_ = now_us;
+    since_count_ = count;
+  }
+  return per_s_;
 }
 
 }  // namespace fresco

@@ -1,17 +1,20 @@
 #include "core/command_line.h"
 
 #include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <optional>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
+#include "core/installation.h"
+#include "core/signals.h"
 
 namespace fresco {
 namespace {
 
-/// An argument that neither is an option nor has a place, and the command that it was given to.
+/// An argument that is no option and that the command does not expect, and the command.
 struct UnexpectedArgument {
   const CLI::App* command;
   std::string text;
@@ -96,6 +99,32 @@ std::string Describe(const CLI::ParseError& error, const CLI::App& command) {
 }
 
 }  // namespace
+
+Program::Program(const std::string& name, const std::string& description, LogStyle style)
+    : command_line_(description, name), style_(style) {
+  command_line_.set_version_flag("--version", kSoftwareVersion);
+}
+
+int Program::Run(int argc, const char* const* argv, const std::function<int()>& run) {
+  spdlog::set_default_logger(spdlog::stderr_logger_mt(command_line_.get_name()));
+  StopSignal::Install();
+  if (style_ == LogStyle::kTimed) {
+    spdlog::set_pattern("%H:%M:%S %n[%P] %l: %v");
+    StateSignal::Install();
+  } else {
+    spdlog::set_pattern("%n: %l: %v");
+  }
+  int status = static_cast<int>(ErrorKind::kFailure);
+  try {
+    return ParseCommandLine(command_line_, argc, argv) ? run() : 0;
+  } catch (const Error& error) {
+    status = error.exit_status();
+    spdlog::error("{}", error.what());
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+  }
+  return status;
+}
 
 bool ParseCommandLine(CLI::App& app, int argc, const char* const* argv) {
   try {

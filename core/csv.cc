@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/atomic_file.h"
-#include "core/check.h"
+#include "core/error.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {

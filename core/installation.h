@@ -1,11 +1,15 @@
-// Where the other programs and the files of this installation are, relative to the program that runs; so an
-// installation can be moved. A build tree is laid out like an installation.
+// The installation that the running program belongs to: its version, and where its other programs and files
+// are, relative to the program; so an installation can be moved. A build tree is laid out like an
+// installation. Any thread may call these functions.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 namespace fresco {
+
+/// The software's version, written into files and shown by --version.
+inline constexpr char kSoftwareVersion[] = "0.1.0";
 
 /// How this program was called, for commands that a person is told to type.
 std::string ProgramName();

@@ -1,6 +1,6 @@
 #include "core/random.h"
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 

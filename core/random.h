@@ -1,5 +1,6 @@
 // Counter-based random numbers: a stream is a pure function of its key, so any draw of any episode
-// can be made again anywhere, in any order. No other source of randomness may reach the weights.
+// can be made again anywhere, in any order. No other source of randomness may reach the weights. Any thread
+// may call the functions; a stream belongs to one thread.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ enum class RandomPurpose : uint32_t {
   kEpisodeSeed = 6,      ///< seeds of training episodes; indices: episode low, episode high
 };
 
-/// The stream of (seed, purpose, first index, second index). Small, copyable; not thread-safe.
+/// The stream of (seed, purpose, first index, second index). Small and copyable.
 class RandomStream {
  public:
   RandomStream(uint64_t seed, RandomPurpose purpose, uint32_t first_index, uint32_t second_index);

@@ -50,7 +50,7 @@ void StateSignal::Install() {
   InstallHandler(SIGUSR1, HandleStateRequest, SA_RESTART);  // nothing that is under way may fail by it
 }
 
-bool StateSignal::TakeRequest() {
+bool StateSignal::ConsumeRequest() {
   return state_requested.exchange(false, std::memory_order_relaxed);
 }
 

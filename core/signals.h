@@ -23,7 +23,7 @@ class StateSignal {
   static void Install();
 
   /// Whether the program's state was asked for since the last call.
-  static bool TakeRequest();
+  static bool ConsumeRequest();
 };
 
 }  // namespace fresco

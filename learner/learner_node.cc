@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/clock.h"
 #include "core/identifier.h"
+#include "msgs/flight_messages.h"
 #include "msgs/protocol_times.h"
-#include "msgs/scenario_codec.h"
 
 namespace fresco {
 namespace {
@@ -24,16 +23,9 @@ LearnerNode::LearnerNode(const Experiment& experiment, const World& world, int64
       bus_(bus),
       channels_(channels),
       identity_{run_id, experiment.hash()},
-      config_text_(experiment.Text()),
       total_episodes_(static_cast<int>(experiment.schedule().episodes())),
-      ledger_(world, experiment.mask_options()) {
-  const MlpShape shape = experiment.network_shape();
-  announcement_.protocol_version = kProtocolVersion;
-  announcement_.arithmetic_fingerprint = ArithmeticFingerprint();
-  announcement_.inputs = shape.inputs();
-  announcement_.outputs = shape.outputs();
-  announcement_.parameters = static_cast<int32_t>(shape.parameter_count());
-  announcement_.values_per_chunk = kValuesPerChunk;
+      ledger_(world, experiment.mask_options()),
+      announcer_(experiment, run_id) {
   Subscribe(channels_.transitions, &LearnerNode::HandleTransitions);
   Subscribe(channels_.actor_status, &LearnerNode::HandleStatus);
   Subscribe(channels_.run, &LearnerNode::HandleRun);
@@ -52,34 +44,15 @@ void LearnerNode::WriteOrder(const Order& order) {
   ledger_.Write(order);
 }
 
-void LearnerNode::OfferVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
+void LearnerNode::OfferVersion(NetworkVersion version, std::shared_ptr<const Vector> parameters) {
   const std::lock_guard lock(mutex_);
-  publisher_.Offer(kind, version, std::move(parameters));
+  publisher_.Offer(version, std::move(parameters));
 }
 
-void LearnerNode::SetProgress(const TrainerProgress& progress, const std::optional<Evaluation>& last,
-                              const std::optional<BestNetwork>& best) {
+void LearnerNode::Report(TrainingReport report) {
   const std::lock_guard lock(mutex_);
-  progress_ = progress;
-  last_evaluation_ = last;
-  if (best && best->evaluation.arrived) {
-    best_evaluation_ = best->evaluation;
-  }
-}
-
-void LearnerNode::SetOptimum(const OptimumBound& optimum) {
-  const std::lock_guard lock(mutex_);
-  optimum_ = optimum;
-}
-
-void LearnerNode::SetFinishing(const std::string& waiting_for) {
-  const std::lock_guard lock(mutex_);
-  finishing_ = waiting_for;
-}
-
-void LearnerNode::SetWarning(const std::string& warning) {
-  const std::lock_guard lock(mutex_);
-  warning_ = warning.substr(0, kMaximumWarningBytes);
+  report_ = std::move(report);
+  report_.warning.resize(std::min(report_.warning.size(), kMaximumWarningBytes));
 }
 
 std::optional<CommittedEpisode> LearnerNode::WaitForNext(int64_t timeout_us) {
@@ -145,13 +118,13 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
 
 void LearnerNode::HandleStatus(const actor_status_t& message) {
   if (message.run_id == 0) {
-    run_was_asked_for_ = true;
+    announcer_.Ask();
     return;
   }
   if (!IsOurs(IdentityOf(message))) {
     return;
   }
-  if (message.arithmetic_fingerprint != announcement_.arithmetic_fingerprint || message.actor_id == 0) {
+  if (message.arithmetic_fingerprint != ArithmeticFingerprint() || message.actor_id == 0) {
     return Reject(&BusCounters::rejected_arithmetic);
   }
   switch (roster_.Hear(message, clock_.now_us())) {
@@ -170,23 +143,9 @@ void LearnerNode::HandleStatus(const actor_status_t& message) {
 }
 
 void LearnerNode::HandleRun(const run_t& message) {
-  if (message.run_id == identity_.run_id && announced_) {
-    return;
+  if (announcer_.IsForeign(message, channels_.run, WallMicroseconds())) {
+    Reject(&BusCounters::rejected_foreign);
   }
-  Reject(&BusCounters::rejected_foreign);
-  if (message.finished != 0) {
-    return;
-  }
-  const bool current = IsCurrent(message.utime, WallMicroseconds());
-  bool& warned = current ? warned_of_foreign_run_ : warned_of_recorded_run_;
-  if (!warned) {  // once: whoever floods the bus with runs is not to fill the log
-    warned = true;
-    spdlog::warn(
-        "{}, {}, is on {}: it does no harm, but shares the bandwidth",
-        current ? "another run" : "a recording of a run (or a run whose clock differs from this host's)",
-        IdentifierText(message.run_id), channels_.run);
-  }
-  foreign_run_ = current ? message.run_id : foreign_run_;
 }
 
 void LearnerNode::Step() {
@@ -196,7 +155,7 @@ void LearnerNode::Step() {
     const std::lock_guard lock(mutex_);
     now_us = clock_.Look(begin_us);
   }
-  SendRunIfDue(now_us);
+  SendRun(now_us, false);
   SendScenarioIfDue(now_us);
   SendOrders(now_us);
   SendWeights(now_us);
@@ -205,36 +164,16 @@ void LearnerNode::Step() {
   bus_.Poll(std::max<int64_t>(0, next_us - now_us - (MonotonicMicroseconds() - begin_us)));
 }
 
-void LearnerNode::SendRunIfDue(int64_t now_us) {
-  bool asked = false;
+void LearnerNode::SendRun(int64_t now_us, bool finished) {
+  std::vector<run_t> messages;
   {
     const std::lock_guard lock(mutex_);
-    asked = run_was_asked_for_ && now_us >= next_run_us_ - kRunPeriodUs + kAskedRunPeriodUs;
-    run_was_asked_for_ = run_was_asked_for_ && !asked;
+    if (finished || announcer_.IsDue(now_us)) {
+      messages = announcer_.Messages(report_.progress, finished);
+    }
   }
-  if (asked || now_us >= next_run_us_) {
-    next_run_us_ = now_us + kRunPeriodUs;
-    SendRun(false);
-  }
-}
-
-void LearnerNode::SendRun(bool finished) {
-  {
-    const std::lock_guard lock(mutex_);
-    announced_ = true;
-    announcement_.current_version = progress_.current_version;
-    announcement_.target_version = progress_.target_version;
-  }
-  const int size = static_cast<int>(config_text_.size());
-  announcement_.finished = finished ? 1 : 0;
-  announcement_.part_count = (size + kMaximumPartBytes - 1) / kMaximumPartBytes;
-  for (int part = 0; part < announcement_.part_count; ++part) {
-    const std::string text =
-        config_text_.substr(static_cast<size_t>(part) * kMaximumPartBytes, kMaximumPartBytes);
-    announcement_.part_index = part;
-    announcement_.part.assign(text.begin(), text.end());
-    announcement_.part_size = static_cast<int32_t>(text.size());
-    bus_.Publish(channels_.run, announcement_, identity_);
+  for (const run_t& message : messages) {
+    bus_.Publish(channels_.run, message, identity_);
   }
 }
 
@@ -271,7 +210,7 @@ void LearnerNode::SendWeights(int64_t now_us) {
   if (now_us < next_burst_us_) {
     return;
   }
-  next_burst_us_ = now_us + kPollUs;  // where nothing is due
+  next_burst_us_ = now_us + kPollUs;  // if nothing is due
   for (int i = 0; i < kChunksPerBurst; ++i) {
     std::optional<std::pair<NetworkKind, weights_t>> chunk;
     {
@@ -295,14 +234,29 @@ void LearnerNode::SendStatusIfDue(int64_t now_us) {
   }
 }
 
+learner_status_t LearnerNode::Status(int64_t now_us) {
+  const std::lock_guard lock(mutex_);
+  learner_status_t status{};
+  report_.WriteTo(status);
+  status.total_episodes = total_episodes_;
+  status.transitions_per_s = transition_rate_.Measure(status.transitions, now_us);
+  status.updates_per_s = update_rate_.Measure(status.updates, now_us);
+  status.orders_in_flight = static_cast<int32_t>(ledger_.in_flight());
+  status.actors = roster_.live_actors(now_us);
+  const BusCounters counters = CountersLocked();
+  status.received = counters.received;
+  status.duplicate = counters.duplicate;
+  status.rejected = counters.rejected;
+  status.lost = counters.lost;
+  status.reordered_episodes = counters.reordered_episodes;
+  status.waiting_for = WaitingForLocked().substr(0, kMaximumWaitingForBytes);
+  status.warning = report_.warning;
+  return status;
+}
+
 void LearnerNode::WarnIfNeeded() {
-  std::string foreign_key;
-  {
-    const std::lock_guard lock(mutex_);
-    foreign_key = bus_.KeyMismatchNews();
-  }
-  if (!foreign_key.empty()) {
-    spdlog::warn("{}", foreign_key);
+  if (const std::string news = bus_.KeyMismatchNews(); !news.empty()) {
+    spdlog::warn("{}", news);
   }
   if (const auto line = starvation_warning_.Note(StarvedSeconds(), WaitingFor())) {
     spdlog::warn("{}", *line);
@@ -312,15 +266,89 @@ void LearnerNode::WarnIfNeeded() {
 void LearnerNode::AnnounceEnd() {
   constexpr int kTimes = 3;  // against loss; an actor that misses all of them notices the silence
   for (int i = 0; i < kTimes; ++i) {
-    SendRun(true);
+    SendRun(clock_.now_us(), true);
     bus_.Publish(channels_.learner_status, Status(clock_.now_us()), identity_);
     bus_.Poll(kPollUs);
   }
 }
 
+std::string LearnerNode::WaitingForLocked() const {
+  if (!report_.finishing.empty()) {
+    return report_.finishing;
+  }
+  if (waiting_since_us_ == 0 || ledger_.in_flight() == 0 || ledger_.IsComplete(ledger_.committed())) {
+    return "";
+  }
+  const std::string awaited = roster_.Awaited(ledger_.order(ledger_.committed()), clock_.now_us());
+  const std::string reason = roster_.live_actors(clock_.now_us()) == 0 ? bus_.KeyMismatch() : "";
+  return reason.empty() ? awaited : fmt::format("{} ({})", awaited, reason);
+}
+
+std::string LearnerNode::WaitingFor() const {
+  const std::lock_guard lock(mutex_);
+  return WaitingForLocked();
+}
+
+double LearnerNode::StarvedSecondsLocked() const {
+  const bool starved = waiting_since_us_ != 0 && report_.finishing.empty() && ledger_.in_flight() > 0;
+  return starved ? static_cast<double>(clock_.now_us() - waiting_since_us_) * 1e-6 : 0;
+}
+
+double LearnerNode::StarvedSeconds() const {
+  const std::lock_guard lock(mutex_);
+  return StarvedSecondsLocked();
+}
+
+BusCounters LearnerNode::CountersLocked() const {
+  BusCounters counters = counters_;
+  counters.lost += roster_.late_orders();
+  counters.weights_chunks_sent += publisher_.sent_chunks();
+  counters.weights_chunks_repeated += publisher_.repeated_chunks();
+  counters.rejected_malformed += bus_.malformed_messages();
+  counters.rejected_unauthenticated += bus_.unauthenticated_messages();
+  counters.rejected += bus_.malformed_messages() + bus_.unauthenticated_messages();
+  return counters;
+}
+
+BusCounters LearnerNode::counters() const {
+  const std::lock_guard lock(mutex_);
+  return CountersLocked();
+}
+
+void LearnerNode::RestoreCounters(const BusCounters& counters) {
+  const std::lock_guard lock(mutex_);
+  counters_ = counters;
+}
+
 int64_t LearnerNode::foreign_run() const {
   const std::lock_guard lock(mutex_);
-  return foreign_run_;
+  return announcer_.foreign_run();
+}
+
+std::string LearnerNode::StateText() const {
+  const std::lock_guard lock(mutex_);
+  const TrainerProgress& progress = report_.progress;
+  const BusCounters counters = CountersLocked();
+  const std::string waiting_for = WaitingForLocked();
+  std::string text = fmt::format(
+      "state\n  run {}, configuration {:08x}\n  {} orders committed, {} in flight; {} of {} episodes, "
+      "{} transitions, {} updates",
+      IdentifierText(identity_.run_id), identity_.config_hash, ledger_.committed(), ledger_.in_flight(),
+      progress.episodes, total_episodes_, progress.transitions, progress.updates);
+  text += waiting_for.empty()
+              ? "\n  waits for nobody"
+              : fmt::format("\n  waits for {}; starved for {:.1f} s", waiting_for, StarvedSecondsLocked());
+  text += report_.warning.empty() ? "" : "\n  warning: " + report_.warning;
+  text += fmt::format("\n  networks on offer: {}; {} chunks sent, {} of them again", publisher_.StateText(),
+                      counters.weights_chunks_sent, counters.weights_chunks_repeated);
+  text += fmt::format(
+      "\n  messages: {} received, {} duplicate, {} rejected, {} stale and {} crowded statuses; {} orders "
+      "asked "
+      "for again, {} episodes out of order",
+      counters.received, counters.duplicate, counters.rejected, counters.stale_statuses,
+      counters.crowded_statuses, counters.lost, counters.reordered_episodes);
+  return text + fmt::format("\n  {} actors", roster_.live_actors(clock_.now_us())) +
+         roster_.StateText(clock_.now_us());
 }
 
 }  // namespace fresco

@@ -1,5 +1,5 @@
-// The learner's side of the bus, between the trainer and the actors: announces the run, hands out
-// orders, collects transitions into the ledger, sends networks in paced chunks, reports status.
+// The learner's side of the bus, between the trainer and the actors: announces the run, hands out orders,
+// collects transitions into the ledger, sends networks in paced chunks, reports status.
 //
 // Threads: Step belongs to one network thread, which never trains; every other function may be
 // called from the training thread at the same time. One mutex guards the shared state; it is never
@@ -12,19 +12,17 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bus/bus.h"
-#include "core/attentive_clock.h"
+#include "core/clock.h"
+#include "learner/learner_report.h"
 #include "learner/roster.h"
-#include "learner/starvation_warning.h"
+#include "learner/run_announcer.h"
 #include "learner/weight_publisher.h"
 #include "msgs/channels.h"
 #include "msgs/message_bus.h"
-#include "storage/bus_counters.h"
-#include "storage/optimum_search.h"
+#include "storage/summary.h"
 #include "training/ledger.h"
-#include "training/trainer.h"
 
 namespace fresco {
 
@@ -36,15 +34,9 @@ class LearnerNode {
 
   // ---- The training thread's side.
   void WriteOrder(const Order& order);
-  void OfferVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
-  void SetProgress(const TrainerProgress& progress, const std::optional<Evaluation>& last,
-                   const std::optional<BestNetwork>& best);
-  void SetOptimum(const OptimumBound& optimum);
-  /// What the learner itself is busy with before it ends, for the status; in place of an actor.
-  void SetFinishing(const std::string& waiting_for);
-  /// What somebody has to see to ("the last checkpoint could not be written: ..."), for the status; empty:
-  /// nothing any more.
-  void SetWarning(const std::string& warning);
+  void OfferVersion(NetworkVersion version, std::shared_ptr<const Vector> parameters);
+  /// Replaces what the status says of the training.
+  void Report(TrainingReport report);
   /// Waits up to `timeout_us` for the next episode by index.
   std::optional<CommittedEpisode> WaitForNext(int64_t timeout_us);
 
@@ -76,8 +68,7 @@ class LearnerNode {
   bool IsOurs(RunIdentity identity);
   void Reject(int64_t BusCounters::*cause);
 
-  void SendRunIfDue(int64_t now_us);
-  void SendRun(bool finished);
+  void SendRun(int64_t now_us, bool finished);
   void SendScenarioIfDue(int64_t now_us);
   void SendOrders(int64_t now_us);
   void SendWeights(int64_t now_us);
@@ -87,8 +78,6 @@ class LearnerNode {
   std::string WaitingForLocked() const;
   double StarvedSecondsLocked() const;
   BusCounters CountersLocked() const;
-  void MeasureRates(int64_t now_us);
-  void AddEvaluations(learner_status_t& status) const;
 
   template <class Message>
   void Subscribe(const std::string& channel, void (LearnerNode::*handle)(const Message&));
@@ -97,8 +86,6 @@ class LearnerNode {
   MessageBus bus_;
   Channels channels_;
   RunIdentity identity_;
-  run_t announcement_{};
-  std::string config_text_;
   int total_episodes_;
 
   mutable std::mutex mutex_;
@@ -107,32 +94,20 @@ class LearnerNode {
   Roster roster_;
   WeightPublisher publisher_;
   BusCounters counters_;  // without those of the roster and the bus: see CountersLocked
-  TrainerProgress progress_;
-  std::optional<Evaluation> last_evaluation_;
-  std::optional<Evaluation> best_evaluation_;
-  std::optional<OptimumBound> optimum_;
-  std::string finishing_;
-  std::string warning_;
+  RunAnnouncer announcer_;
+  TrainingReport report_;
   AttentiveClock clock_;          // of everything that is judged by time here
   int64_t waiting_since_us_ = 0;  // the trainer, for a result; 0: it does not wait
-  int64_t foreign_run_ = 0;
-  bool warned_of_foreign_run_ = false;
-  bool warned_of_recorded_run_ = false;
-  bool announced_ = false;  // this run, by this node
 
   // The network thread's own.
   StarvationWarning starvation_warning_;
   OrderResult part_;
-  int64_t next_run_us_ = 0;
   int64_t next_scenario_us_ = 0;
   int64_t next_orders_us_ = 0;
   int64_t next_status_us_ = 0;
   int64_t next_burst_us_ = 0;
-  bool run_was_asked_for_ = false;
-  int64_t rate_since_us_ = 0;
-  TrainerProgress rate_from_;
-  double transitions_per_s_ = 0;
-  double updates_per_s_ = 0;
+  RateMeter transition_rate_;
+  RateMeter update_rate_;
 };
 
 }  // namespace fresco

@@ -12,6 +12,11 @@
 #include "core/identifier.h"
 #include "core/signals.h"
 #include "msgs/protocol_times.h"
+#include "msgs/versions_in_flight.h"
+#include "storage/checkpoint_file.h"
+#include "training/dqn.h"
+#include "training/ledger.h"
+#include "training/replay_memory.h"
 
 namespace fresco {
 namespace {
@@ -30,7 +35,7 @@ LearnerProcess::LearnerProcess(const Experiment& experiment, Bus& bus, LearnerOp
       folder_(options_.folder, experiment_, options_.use) {}
 
 bool LearnerProcess::Run() {
-  RefuseTakenBus();
+  RefuseUsedBus();
   begin_us_ = MonotonicMicroseconds();
   optimum_.emplace(world_, OptimumSearch::Limits{experiment_.run().optimum_limit_s(),
                                                  int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
@@ -51,8 +56,8 @@ bool LearnerProcess::Run() {
 TrainerOutput LearnerProcess::Output() {
   TrainerOutput output;
   output.order = [this](const Order& order) { node_.WriteOrder(order); };
-  output.version = [this](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
-    node_.OfferVersion(kind, version, std::move(parameters));
+  output.version = [this](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+    node_.OfferVersion(version, std::move(parameters));
   };
   output.evaluation = [this](const Evaluation& evaluation) {
     folder_.AddMetrics(evaluation, trainer_.progress(), WallSeconds());
@@ -70,7 +75,7 @@ TrainerOutput LearnerProcess::Output() {
 }
 
 /// Throws UsageError if another learner is on the same channels: the two would share actors and bandwidth.
-void LearnerProcess::RefuseTakenBus() {
+void LearnerProcess::RefuseUsedBus() {
   const int64_t until_us = MonotonicMicroseconds() + kFreeBusUs;
   while (MonotonicMicroseconds() < until_us && node_.foreign_run() == 0 && !StopSignal::Requested()) {
     bus_->Poll(until_us - MonotonicMicroseconds());
@@ -88,7 +93,7 @@ void LearnerProcess::Serve(std::stop_token stop) {
   try {
     while (!stop.stop_requested()) {
       node_.Step();
-      if (StateSignal::TakeRequest()) {
+      if (StateSignal::ConsumeRequest()) {
         spdlog::info("{}", node_.StateText());
       }
     }
@@ -176,11 +181,11 @@ void LearnerProcess::WriteCheckpoint() {
 void LearnerProcess::WaitForOptimum() {
   constexpr int64_t kReportUs = 200'000;
   if (trainer_.finished()) {
-    optimum_->TakeFullPriority();
+    optimum_->SetFullPriority();
   }
   while (trainer_.finished() && !StopSignal::Requested() && !optimum_->WaitForEnd(kReportUs)) {
-    node_.SetFinishing(fmt::format("the proof of the exact optimum: at most {:.0f} s more of processor time",
-                                   optimum_->processor_seconds_left()));
+    finishing_ = fmt::format("the proof of the exact optimum: at most {:.0f} s more of processor time",
+                             optimum_->processor_seconds_left());
     Report();
   }
   optimum_->Stop();
@@ -192,11 +197,8 @@ void LearnerProcess::WaitForOptimum() {
 }
 
 void LearnerProcess::Report() {
-  node_.SetProgress(trainer_.progress(), trainer_.last_evaluation(), trainer_.best());
-  if (const auto bound = optimum_->bound()) {
-    node_.SetOptimum(*bound);
-  }
-  node_.SetWarning(folder_.problem());
+  node_.Report({trainer_.progress(), trainer_.last_evaluation(), trainer_.best(), optimum_->bound(),
+                finishing_, folder_.problem()});
 }
 
 double LearnerProcess::WallSeconds() const {
@@ -212,6 +214,41 @@ void LearnerProcess::WriteResults() {
   folder_.Finish();
   folder_.WriteSummary(SummaryJson({experiment_, world_, options_.run_id, trainer_.finished(), wall_s_,
                                     trainer_, node_.counters(), optimum, resumptions_, checkpoints_}));
+}
+
+MemoryNeed LearnerMemory(const Experiment& experiment) {
+  constexpr int64_t kMega = 1'000'000;
+  constexpr int64_t kStored = 2;  // the best and the final network, while their files are written
+  const World world(experiment.scenario());
+  const MlpShape shape = experiment.network_shape();
+  const proto::Agent& agent = experiment.agent();
+  const proto::Run& run = experiment.run();
+  const int64_t parameters = shape.parameter_count();
+  const int64_t network = parameters * static_cast<int64_t>(sizeof(Vector::Scalar));
+  const int64_t versions = MostVersionsInFlight(experiment).both();
+  const int64_t checkpoint = CheckpointBytes(parameters, 0, 0);
+  const int64_t actions = agent.replay_capacity() + int64_t{world.maximum_transitions()};
+  return {"learner",
+          1,
+          {{"agent.replay_capacity", "the replay memory",
+            ReplayMemory::BytesFor(shape.inputs(), shape.outputs(), agent.replay_capacity()) +
+                ActionHistory::BytesFor(agent.replay_capacity(), world.maximum_transitions()) +
+                CheckpointBytes(0, 0, actions)},
+           {"agent.batch_size", "a batch and the units' outputs for it",
+            MiniBatch::BytesFor(shape.inputs(), shape.outputs(), agent.batch_size()) +
+                Dqn::BatchBytes(shape, agent.batch_size())},
+           {"agent.hidden_layers", "the networks, Adam's moments and their checkpoint",
+            Dqn::ParameterBytes(shape) + kStored * network + checkpoint},
+           {"schedule.window", "the versions of the networks that orders in flight can name",
+            versions * (network + WeightPublisher::BytesPerVersion(parameters)) +
+                CheckpointBytes(parameters, versions, 0) - checkpoint},
+           {"schedule.window", "the episodes of the orders in flight",
+            Ledger::BytesFor(world, MaximumOrdersInFlight(experiment.schedule().window()))},
+           {"scenario.grid", "the field",
+            world.bytes() + NetworkInput::BytesFor(world, experiment.network_input_options())},
+           {"run.optimum_memory_mb", "the search for the exact optimum",
+            run.optimum_limit_s() > 0 ? run.optimum_memory_mb() * kMega : 0},
+           {"", "the program", kProgramBytes}}};
 }
 
 }  // namespace fresco

@@ -5,10 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "bus/bus.h"
+#include "core/memory.h"
 #include "learner/learner_node.h"
 #include "storage/optimum_search.h"
 #include "storage/run_folder.h"
@@ -38,7 +38,7 @@ class LearnerProcess {
 
  private:
   TrainerOutput Output();
-  void RefuseTakenBus();
+  void RefuseUsedBus();
   void Serve(std::stop_token stop);
   void Train();
   bool GivesUp() const;
@@ -65,6 +65,11 @@ class LearnerProcess {
   double wall_s_ = 0;         // wall time of the whole training, once it has ended
   int64_t next_checkpoint_us_ = 0;
   CheckpointFigures checkpoints_;
+  std::string finishing_;  // what it is busy with before it ends
 };
+
+/// Returns the most memory that the learner needs: when the replay memory is full and a checkpoint is being
+/// written. Small objects are left out. Any thread may call it.
+MemoryNeed LearnerMemory(const Experiment& experiment);
 
 }  // namespace fresco

@@ -1,22 +1,15 @@
 // The program fresco-learner: the learner process of one run; see learner/learner_process.h.
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <exception>
-
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/command_line.h"
 #include "core/error.h"
-#include "core/folder_lock.h"
+#include "core/files.h"
 #include "core/identifier.h"
-#include "core/output_folder.h"
-#include "core/signals.h"
-#include "core/version.h"
-#include "learner/learner_memory.h"
 #include "learner/learner_process.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
-#include "storage/resumption.h"
+#include "storage/checkpoint_folder.h"
 
 namespace fresco {
 namespace {
@@ -70,10 +63,11 @@ int Resume(const Arguments& arguments, const Settings& settings) {
 
 int Main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app(
+  Program program(
+      "fresco-learner",
       "Trains a DQN from the transitions that actors send over LCM. `fresco train` starts it for you.",
-      "fresco-learner");
-  app.set_version_flag("--version", kSoftwareVersion);
+      LogStyle::kTimed);
+  CLI::App& app = program.command_line();
   CLI::Option* config = app.add_option("--config", arguments.config, ConfigHelp());
   app.add_option("--set", arguments.settings, "Overrides one field: path=value; may be repeated");
   app.add_option("--lcm-url", arguments.lcm_url, "Overrides run.lcm_url");
@@ -83,31 +77,18 @@ int Main(int argc, char** argv) {
       ->excludes(out);
   app.add_option("--run-id", arguments.run_id, "Id of the run (16 hexadecimal digits); default: a random id");
   AddBusOptions(app, arguments.bus);
-  if (!ParseCommandLine(app, argc, argv)) {
-    return 0;
-  }
-  Settings settings = ParseSettings(arguments.settings);
-  if (!arguments.lcm_url.empty()) {
-    settings.emplace_back("run.lcm_url", arguments.lcm_url);
-  }
-  return arguments.resume.empty() ? RunAnew(arguments, settings) : Resume(arguments, settings);
+  return program.Run(argc, argv, [&] {
+    Settings settings = ParseSettings(arguments.settings);
+    if (!arguments.lcm_url.empty()) {
+      settings.emplace_back("run.lcm_url", arguments.lcm_url);
+    }
+    return arguments.resume.empty() ? RunAnew(arguments, settings) : Resume(arguments, settings);
+  });
 }
 
 }  // namespace
 }  // namespace fresco
 
 int main(int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("fresco-learner"));
-  spdlog::set_pattern("%H:%M:%S %n[%P] %l: %v");
-  fresco::StopSignal::Install();
-  fresco::StateSignal::Install();
-  try {
-    return fresco::Main(argc, argv);
-  } catch (const fresco::Error& error) {
-    spdlog::error("{}", error.what());
-    return error.exit_status();
-  } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
-    return 1;
-  }
+  return fresco::Main(argc, argv);
 }

@@ -1,9 +1,13 @@
 #include "learner/roster.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "core/identifier.h"
 #include "msgs/protocol_times.h"
+#include "msgs/weights_codec.h"
 
 namespace fresco {
 namespace {
@@ -12,6 +16,31 @@ constexpr int64_t kSoonestLateUs = 150'000;  // no order is late before
 constexpr double kLateFactor = 4;            // an order is late after so many times the usual latency
 constexpr int kLongestPatience = 8;          // each attempt may take longer, up to this factor
 constexpr int32_t kLargestCapacity = 4096;
+constexpr size_t kLongestList = 32;  // of actors in a text
+
+double Seconds(int64_t us) {
+  return static_cast<double>(us) * 1e-6;
+}
+
+std::string NameOf(const ActorRecord& actor) {
+  return fmt::format("{} (pid {})", actor.host, actor.pid);
+}
+
+/// "; it lacks current network 7 (3 chunks missing)", by the actor's last status; empty if it lacks nothing.
+std::string LackedNetworks(const ActorRecord& actor, const Order& order) {
+  std::string text;
+  for (const NetworkVersion& version : VersionsOf(order)) {
+    int64_t missing = 0;
+    for (const chunk_range_t& range : actor.missing) {
+      missing += VersionOf(range) == version ? std::max(0, range.count) : 0;
+    }
+    if (missing > 0) {
+      text += fmt::format("{}{} network {} ({} chunks missing)", text.empty() ? "; it lacks " : " and ",
+                          Name(version.kind), version.number, missing);
+    }
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -79,14 +108,14 @@ bool Roster::IsSilent(int64_t actor_id, int64_t now_us) const {
 
 bool Roster::AllSilent(int64_t now_us) const {
   return std::all_of(actors_.begin(), actors_.end(),
-                     [&](const auto& entry) { return now_us - entry.second.last_heard_us > kSilentActorUs; });
+                     [&](const auto& entry) { return IsSilent(entry.first, now_us); });
 }
 
 int64_t Roster::Choose(int64_t except, int64_t now_us) const {
   int64_t best = 0;
   std::pair<double, int64_t> best_load;
   for (const auto& [id, actor] : actors_) {
-    if (id == except || now_us - actor.last_heard_us > kSilentActorUs) {
+    if (id == except || IsSilent(id, now_us)) {
       continue;
     }
     const auto open = open_orders_.find(id);
@@ -155,6 +184,55 @@ std::vector<order_t> Roster::DueOrders(const Ledger& ledger, int64_t now_us) {
     }
   }
   return due;
+}
+
+std::string Roster::Awaited(const Order& order, int64_t now_us) const {
+  if (actors_.empty()) {
+    return "an actor to join";
+  }
+  if (AllSilent(now_us)) {
+    return "an actor: " + LastHeard(now_us);
+  }
+  const auto found = assignments_.find(order.index);
+  if (found == assignments_.end() || IsSilent(found->second.actor_id, now_us)) {
+    return fmt::format("an actor for order {}", order.index);
+  }
+  const ActorRecord& actor = actors_.at(found->second.actor_id);
+  const std::string lacked = LackedNetworks(actor, order);
+  const bool flying = actor.oldest_open_order == order.index;
+  return fmt::format("{}: order {} for {:.1f} s{}", NameOf(actor), order.index,
+                     Seconds(now_us - found->second.assigned_us),
+                     !lacked.empty() ? lacked
+                     : flying        ? "; it has the order and is flying"
+                                     : "; it has not got the order yet, or the result has not arrived");
+}
+
+std::string Roster::LastHeard(int64_t now_us) const {
+  const auto newest = std::max_element(actors_.begin(), actors_.end(), [](const auto& a, const auto& b) {
+    return a.second.last_heard_us < b.second.last_heard_us;
+  });
+  const std::string last = fmt::format("{} was last heard of {:.1f} s ago", NameOf(newest->second),
+                                       Seconds(now_us - newest->second.last_heard_us));
+  return actors_.size() == 1 ? last : fmt::format("all {} are silent, {}", actors_.size(), last);
+}
+
+std::string Roster::StateText(int64_t now_us) const {
+  std::string text;
+  std::map<int64_t, std::string> orders;  // by actor
+  for (const auto& [index, assignment] : assignments_) {
+    orders[assignment.actor_id] += fmt::format(" {}", index);
+  }
+  size_t lines = 0;
+  for (const auto& [id, actor] : actors_) {
+    if (++lines > kLongestList) {
+      return text + fmt::format("\n  and {} more actors", actors_.size() - kLongestList);
+    }
+    const std::string flies = orders.contains(id) ? "orders" + orders.at(id) : "no order";
+    text += fmt::format("\n  actor {} {}: heard of {:.1f} s ago, {:.0f} transitions/s, {} late, {}",
+                        IdentifierText(id), NameOf(actor), Seconds(now_us - actor.last_heard_us),
+                        actor.transitions_per_s, actor.late_orders, flies.substr(0, 200));
+  }
+  return text;
 }
 
 }  // namespace fresco

@@ -2,7 +2,7 @@
 // in flight to an actor that sent a status lately, and gives late orders out again, to another actor if there
 // is one. It decides only who flies an order, so nothing here reaches the weights. Memory is bounded. All
 // times are microseconds of a clock that stops while the learner's process is stopped
-// (core/attentive_clock.h). LearnerNode owns it. Not thread-safe.
+// (core/clock.h). LearnerNode owns it. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -41,10 +41,10 @@ class Roster {
     kCrowdedOut,  ///< from a new actor, but kMaximumActors are present
   };
 
-  /// Takes a status of an actor of this run. A status that is stale or crowded out changes nothing.
+  /// Reads a status of an actor of this run. A status that is stale or crowded out changes nothing.
   Hearing Hear(const actor_status_t& status, int64_t now_us);
 
-  /// Takes note that the result of order `index` is complete; `actor_id` sent its last missing part.
+  /// Notes that the result of order `index` is complete; `actor_id` sent its last missing part.
   void Completed(int64_t index, int64_t actor_id, int64_t now_us);
 
   /// Gives new and late orders to actors. Returns the orders to announce now: those just given out, and those

@@ -22,7 +22,7 @@ class WeightPublisher {
   static int64_t BytesPerVersion(int64_t parameters);
 
   /// Adds a version, all of whose chunks are then due.
-  void Offer(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
+  void Offer(NetworkVersion version, std::shared_ptr<const Vector> parameters);
 
   /// Drops the versions of the two networks that are older than these: no order can name them any more.
   void Retain(int32_t oldest_current, int32_t oldest_target);
@@ -37,14 +37,14 @@ class WeightPublisher {
   std::optional<std::pair<NetworkKind, weights_t>> Next(int64_t now_us);
 
   /// A text for people: the versions on offer, and how many of their chunks are due.
-  std::string Offered() const;
+  std::string StateText() const;
 
   /// The number of chunks sent, and how many of these were sent again because an actor asked.
   int64_t sent_chunks() const { return sent_chunks_; }
   int64_t repeated_chunks() const { return repeated_chunks_; }
 
  private:
-  struct Version {
+  struct Offered {
     std::shared_ptr<const Vector> parameters;
     uint32_t crc32c = 0;
     std::vector<uint8_t> due;      // by chunk
@@ -53,7 +53,11 @@ class WeightPublisher {
     int next = 0;  // number of the chunk where the search for the next due one begins
   };
 
-  std::map<std::pair<int32_t, NetworkKind>, Version> versions_;  // oldest first
+  struct OlderFirst {
+    bool operator()(NetworkVersion a, NetworkVersion b) const;
+  };
+
+  std::map<NetworkVersion, Offered, OlderFirst> versions_;
   int64_t sent_chunks_ = 0;
   int64_t repeated_chunks_ = 0;
 };

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/event_selection.h"
 #include "logs/merged_event_logs.h"
 

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/big_endian.h"
+#include "core/bytes.h"
 #include "core/error.h"
 
 namespace fresco {

@@ -12,9 +12,13 @@
 #include <span>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 
 namespace fresco {
+
+/// The bytes before the channel of each event in an event log: sync word, number, time and two lengths,
+/// big-endian.
+inline constexpr size_t kEventHeaderBytes = 28;
 
 class EventLogReader {
  public:

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "logs/event_log_reader.h"
 
 namespace fresco {
 

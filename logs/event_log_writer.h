@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 
 namespace fresco {
 

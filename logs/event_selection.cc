@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/identifier.h"
-#include "msgs/message_peek.h"
+#include "msgs/message_decoder.h"
 
 namespace fresco {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 
 namespace fresco {
 

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "core/identifier.h"
-#include "msgs/message_peek.h"
+#include "msgs/message_decoder.h"
 #include "worlds/uav/environment.h"
 #include "worlds/uav/world.h"
 

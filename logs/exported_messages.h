@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "core/csv.h"
 #include "msgs/message_decoder.h"
 #include "msgs/wire.h"

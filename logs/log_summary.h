@@ -8,11 +8,10 @@
 #include <set>
 #include <string>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/coverage.h"
 #include "logs/merged_event_logs.h"
 #include "msgs/message_decoder.h"
-#include "msgs/message_peek.h"
 #include "msgs/run_announcements.h"
 
 namespace fresco {

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <limits>
 
-#include "core/check.h"
 #include "core/error.h"
 
 namespace fresco {

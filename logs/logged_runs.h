@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/authentication_key.h"
+#include "bus/authenticated_bus.h"
 #include "logs/merged_event_logs.h"
 #include "msgs/message_decoder.h"
 #include "msgs/wire.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 #include "logs/event_log_reader.h"
 
 namespace fresco {

@@ -7,7 +7,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/folder_lock.h"
+#include "core/files.h"
 #include "core/identifier.h"
 #include "core/live_line.h"
 #include "core/signals.h"
@@ -59,7 +59,7 @@ std::string ProgressText(const Trainer& trainer, int64_t episodes, double wall_s
 
 void WaitForEnd(OptimumSearch& optimum, LiveLine& line) {
   constexpr int64_t kReportUs = 200'000;
-  optimum.TakeFullPriority();
+  optimum.SetFullPriority();
   while (!StopSignal::Requested() && !optimum.WaitForEnd(kReportUs)) {
     line.Show(fmt::format(
         "trained; waiting for the proof of the exact optimum: at most {:.0f} s more of processor time",

@@ -4,8 +4,7 @@
 
 #include <utility>
 
-#include "core/check.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
 
 namespace fresco {
@@ -36,8 +35,8 @@ Retraining::Retraining(const Experiment& experiment, const World& world, LoggedE
 TrainerOutput Retraining::Output(EvaluationHandler evaluated) {
   TrainerOutput output;
   output.order = [this](const Order& order) { TakeOrder(order); };
-  output.version = [this](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
-    TakeVersion(kind, version, std::move(parameters));
+  output.version = [this](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+    TakeVersion(version.kind, version.number, std::move(parameters));
   };
   output.evaluation = [this, evaluated = std::move(evaluated)](const Evaluation& evaluation) {
     evaluated(trainer_, evaluation);

@@ -10,20 +10,81 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/nearest_name.h"
-#include "msgs/field_names.h"
 #include "msgs/proto/options.pb.h"
 
 namespace fresco {
 namespace {
 
 using google::protobuf::Descriptor;
+using google::protobuf::DescriptorPool;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
 
+/// Keeps the first error that a parser reports.
+class FirstError : public google::protobuf::io::ErrorCollector {
+ public:
+  void AddError(int line, int column, const std::string& message) override {
+    if (message_.empty()) {
+      message_ = message;
+      position_ = fmt::format("{}:{}", line + 1, column + 1);
+    }
+  }
+  const std::string& message() const { return message_; }
+  const std::string& position() const { return position_; }  // "line:column"
+
+ private:
+  std::string message_;
+  std::string position_;
+};
+
 bool IsMessage(const FieldDescriptor& field) {
   return field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+}
+
+/// The dotted path of every field that SetField can set: "agent.batch_size", "scenario.sensor[0].x_m". An
+/// element of a repeated message has the index 0.
+std::vector<std::string> FieldPaths(const Descriptor& message) {
+  std::vector<std::string> paths;
+  for (int i = 0; i < message.field_count(); ++i) {
+    const FieldDescriptor& field = *message.field(i);
+    if (field.cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE) {
+      paths.push_back(field.name());
+      continue;
+    }
+    for (const std::string& below : FieldPaths(*field.message_type())) {
+      paths.push_back(field.name() + (field.is_repeated() ? "[0]." : ".") + below);
+    }
+  }
+  return paths;
+}
+
+/// The names of this message's own fields, without those of its submessages.
+std::vector<std::string> FieldNames(const Descriptor& message) {
+  std::vector<std::string> names;
+  for (int i = 0; i < message.field_count(); ++i) {
+    names.push_back(message.field(i)->name());
+  }
+  return names;
+}
+
+/// Returns the quoted text that follows `before`: x of before"x". Returns "" if there is none.
+std::string QuotedAfter(const std::string& before, const std::string& text) {
+  const size_t found = text.find(before + "\"");
+  if (found == std::string::npos) {
+    return "";
+  }
+  const size_t begin = found + before.size() + 1;
+  return text.substr(begin, text.find('"', begin) - begin);
+}
+
+/// If Protobuf's error says that a message has no field of some name, returns the suggestion of a similar
+/// name, for example "; did you mean slots?". Otherwise, or if no name is similar, returns "".
+std::string DidYouMeanField(const std::string& protobuf_error) {
+  const std::string message_name = QuotedAfter("Message type ", protobuf_error);
+  const std::string field_name = QuotedAfter(" has no field named ", protobuf_error);
+  const Descriptor* message = DescriptorPool::generated_pool()->FindMessageTypeByName(message_name);
+  return message == nullptr ? "" : DidYouMean(field_name, FieldNames(*message));
 }
 
 std::string JoinPath(const std::string& path, const std::string& name) {
@@ -112,17 +173,15 @@ PathPart ParsePathPart(const std::string& text, const std::string& path) {
 /// Parses the whole text as one value; anything after the value is an error.
 void AddValue(Message& message, const FieldDescriptor& field, const std::string& path,
               const std::string& value) {
-  struct FirstError : google::protobuf::io::ErrorCollector {
-    void AddError(int, int, const std::string& error) override { text = text.empty() ? ": " + error : text; }
-    std::string text;
-  } errors;
+  FirstError error;
   google::protobuf::TextFormat::Parser parser;
-  parser.RecordErrorsTo(&errors);
+  parser.RecordErrorsTo(&error);
   const bool quoted = field.cpp_type() == FieldDescriptor::CPPTYPE_STRING && !value.starts_with('"');
   if (IsMessage(field) ||
       !parser.ParseFieldValueFromString(quoted ? "\"" + value + "\"" : value, &field, &message)) {
     throw UsageError(fmt::format("--set {}: \"{}\" is not a value of this field ({}){}", path, value,
-                                 field.cpp_type_name(), errors.text));
+                                 field.cpp_type_name(),
+                                 error.message().empty() ? "" : ": " + error.message()));
   }
 }
 
@@ -167,6 +226,16 @@ void SetFieldBelow(const Descriptor& configuration, Message& message, const std:
 }
 
 }  // namespace
+
+void ParseText(const std::string& text, const std::string& origin, Message& message) {
+  FirstError error;
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&error);
+  if (!parser.ParseFromString(text, &message)) {
+    throw UsageError(fmt::format("{}:{}: {}; msgs/proto/experiment.proto explains every field{}", origin,
+                                 error.position(), error.message(), DidYouMeanField(error.message())));
+  }
+}
 
 void FillDefaults(Message& message) {
   const Descriptor& descriptor = *message.GetDescriptor();

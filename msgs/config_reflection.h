@@ -1,13 +1,17 @@
-// Generic operations on any configuration message, by Protobuf's reflection: fill in defaults, check ranges
-// (the `range` option of each field), set one field by its path. Any thread may call these functions, but no
-// two threads at a time on the same message.
+// Generic operations on any configuration message, by Protobuf's reflection: parse, fill in defaults, check
+// ranges (the `range` option of each field), set one field by its path. Any thread may call these functions,
+// but no two threads at a time on the same message.
 #pragma once
-
-#include <string>
 
 #include <google/protobuf/message.h>
 
+#include <string>
+
 namespace fresco {
+
+/// Parses Protobuf's text format. Throws UsageError "origin:line:column: problem"; for a field that does not
+/// exist it suggests a similar name.
+void ParseText(const std::string& text, const std::string& origin, google::protobuf::Message& message);
 
 /// Sets every unset scalar field that has a default to it, also in the submessages that are set. Leaves
 /// missing submessages missing, and an unset oneof unset.

@@ -1,51 +1,22 @@
 #include "msgs/experiment.h"
 
 #include <fmt/format.h>
-#include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "core/atomic_file.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "msgs/channels.h"
 #include "msgs/config_reflection.h"
-#include "msgs/field_names.h"
 #include "msgs/wire.h"
-#include "worlds/uav/radio.h"
+#include "worlds/uav/physics.h"
 #include "worlds/uav/world.h"
 
 namespace fresco {
 namespace {
-
-class FirstError : public google::protobuf::io::ErrorCollector {
- public:
-  explicit FirstError(std::string origin) : origin_(std::move(origin)) {}
-  void AddError(int line, int column, const std::string& message) override {
-    if (text_.empty()) {
-      text_ = fmt::format("{}:{}:{}: {}", origin_, line + 1, column + 1, message);
-    }
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string origin_;
-  std::string text_;
-};
-
-proto::ExperimentConfig ParseText(const std::string& text, const std::string& origin) {
-  proto::ExperimentConfig config;
-  FirstError error(origin);
-  google::protobuf::TextFormat::Parser parser;
-  parser.RecordErrorsTo(&error);
-  if (!parser.ParseFromString(text, &config)) {
-    throw UsageError(error.text() + "; msgs/proto/experiment.proto explains every field" +
-                     DidYouMeanField(error.text()));
-  }
-  return config;
-}
 
 void SetCell(proto::Cell& cell, int column, int row) {
   cell.set_column(column);
@@ -180,8 +151,21 @@ std::string Print(const google::protobuf::Message& message) {
 
 }  // namespace
 
+Settings ParseSettings(const std::vector<std::string>& arguments) {
+  Settings settings;
+  for (const std::string& argument : arguments) {
+    const size_t equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError("--set: expected path=value, e.g. schedule.seed=2; found \"" + argument + "\"");
+    }
+    settings.emplace_back(argument.substr(0, equals), argument.substr(equals + 1));
+  }
+  return settings;
+}
+
 Experiment Experiment::Parse(const std::string& text, const std::string& origin, const Settings& settings) {
-  proto::ExperimentConfig config = ParseText(text, origin);
+  proto::ExperimentConfig config;
+  ParseText(text, origin, config);
   for (const auto& [path, value] : settings) {
     SetField(config, path, value);
   }

@@ -18,6 +18,10 @@ namespace fresco {
 /// Settings of single fields as (path, value), for example {"schedule.seed", "3"}; later ones win.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+/// Splits each path=value of the command line: {"schedule.seed=3"} becomes {{"schedule.seed", "3"}}. Throws
+/// UsageError if the path or the '=' is missing.
+Settings ParseSettings(const std::vector<std::string>& arguments);
+
 /// Limits of a network's size. An actor receives its configuration from the bus, so no configuration may take
 /// more memory than a machine has: a program holds some dozens of versions of the parameters at a time, and
 /// the activations (outputs of all units) of one batch.

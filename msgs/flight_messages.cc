@@ -1,9 +1,39 @@
 #include "msgs/flight_messages.h"
 
+#include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace fresco {
 namespace {
+
+/// A message with everything but the sensors.
+scenario_t FieldOf(const Scenario& scenario) {
+  scenario_t message{};
+  message.total_sensors = static_cast<int32_t>(scenario.sensors.size());
+  message.columns = scenario.columns;
+  message.rows = scenario.rows;
+  message.cell_m = scenario.cell_m;
+  message.start_column = scenario.start.column;
+  message.start_row = scenario.start.row;
+  message.stop_column = scenario.stop.column;
+  message.stop_row = scenario.stop.row;
+  message.slots = scenario.slots;
+  message.slot_s = scenario.slot_s;
+  message.coverage_radius_m = scenario.coverage_radius_m;
+  message.initial_energy_j = scenario.initial_energy_j;
+  message.maximum_aoi = scenario.maximum_aoi.value_or(0);
+  return message;
+}
+
+void SetSensors(std::span<const Sensor> sensors, scenario_t& message) {
+  message.sensor_count = static_cast<int32_t>(sensors.size());
+  for (const Sensor& sensor : sensors) {
+    message.x_m.push_back(sensor.x_m);
+    message.y_m.push_back(sensor.y_m);
+    message.weight.push_back(sensor.weight);
+  }
+}
 
 void SetState(const World& world, const State& state, flight_t& message) {
   message.slot = state.slot;
@@ -18,6 +48,19 @@ void SetState(const World& world, const State& state, flight_t& message) {
 }
 
 }  // namespace
+
+std::vector<scenario_t> ScenarioMessages(const Scenario& scenario) {
+  const std::span<const Sensor> sensors = scenario.sensors;
+  std::vector<scenario_t> messages;
+  for (size_t first = 0; first < sensors.size(); first += kMaximumSensorsPerScenario) {
+    scenario_t message = FieldOf(scenario);
+    message.first_sensor = static_cast<int32_t>(first);
+    SetSensors(sensors.subspan(first, std::min<size_t>(kMaximumSensorsPerScenario, sensors.size() - first)),
+               message);
+    messages.push_back(std::move(message));
+  }
+  return messages;
+}
 
 std::vector<flight_t> FlightMessages(const World& world, const Episode& flight, const std::string& policy) {
   std::vector<flight_t> messages;

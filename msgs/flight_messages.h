@@ -1,4 +1,4 @@
-// Turns a flight into the messages that `fresco fly` publishes, one for each slot. Pure functions; any thread
+// What viewers draw: the messages of a field of sensors and of a flight over it. Pure functions; any thread
 // may call them.
 #pragma once
 
@@ -9,6 +9,10 @@
 #include "worlds/uav/episode.h"
 
 namespace fresco {
+
+/// Returns as many messages as the sensors of the scenario need, at most kMaximumSensorsPerScenario in each.
+/// The caller fills in `utime`, `run_id` and `config_hash`.
+std::vector<scenario_t> ScenarioMessages(const Scenario& scenario);
 
 /// Returns one message for each slot of the flight and one for its final state. The caller fills in `utime`,
 /// `run_id`, `config_hash` and `flight`. Policy names longer than kMaximumPolicyBytes are cut.

@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/installation.h"
-#include "core/nearest_name.h"
 
 namespace fresco {
 namespace {

@@ -2,9 +2,30 @@
 
 #include <algorithm>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
+
+const char* Name(NetworkKind kind) {
+  return kind == NetworkKind::kCurrent ? "current" : "target";
+}
+
+std::array<NetworkVersion, 2> VersionsOf(const Order& order) {
+  return {{{NetworkKind::kCurrent, order.current_version}, {NetworkKind::kTarget, order.target_version}}};
+}
+
+chunk_range_t ChunkRange(NetworkVersion version, int first, int count) {
+  chunk_range_t range{};
+  range.network = static_cast<int8_t>(version.kind);
+  range.version = version.number;
+  range.first = first;
+  range.count = count;
+  return range;
+}
+
+NetworkVersion VersionOf(const chunk_range_t& range) {
+  return {static_cast<NetworkKind>(range.network), range.version};
+}
 
 int ChunkCount(int64_t parameters) {
   return static_cast<int>((parameters + kValuesPerChunk - 1) / kValuesPerChunk);

@@ -1,7 +1,9 @@
-// Splits a network's parameters into chunks that each fit one Ethernet frame, and checks chunks that arrive.
-// Pure functions; any thread may call them.
+// Names the versions of the networks, splits their parameters into chunks that each fit one Ethernet frame,
+// and checks chunks that arrive. Pure functions; any thread may call them.
 #pragma once
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 
@@ -9,6 +11,24 @@
 #include "msgs/wire.h"
 
 namespace fresco {
+
+/// One version of one of the two networks.
+struct NetworkVersion {
+  NetworkKind kind = NetworkKind::kCurrent;
+  int32_t number = 0;  ///< 0, 1, .. for each network
+  auto operator<=>(const NetworkVersion&) const = default;
+};
+
+/// "current" or "target".
+const char* Name(NetworkKind kind);
+
+/// The versions that an order names: the one of the current network, then the one of the target network.
+std::array<NetworkVersion, 2> VersionsOf(const Order& order);
+
+/// The message for `count` chunks of a version, from chunk `first` on.
+chunk_range_t ChunkRange(NetworkVersion version, int first, int count);
+/// The version that the chunks of the message belong to. It may be one that does not exist.
+NetworkVersion VersionOf(const chunk_range_t& range);
 
 /// The number of chunks of a network with `parameters` (>= 1) values.
 int ChunkCount(int64_t parameters);

@@ -4,9 +4,8 @@
 #include <iterator>
 
 #include "bus/authenticated_bus.h"
-#include "core/big_endian.h"
-#include "core/check.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {

@@ -19,6 +19,9 @@ namespace fresco {
 using Matrix = Eigen::MatrixXf;  ///< column-major, [units x batch]
 using Vector = Eigen::VectorXf;
 
+/// The values of a vector, as long as it lives and keeps its size.
+std::span<const float> Values(const Vector& vector);
+
 /// The layer sizes of a network, and the position of each layer's parameters in the flat vector. A layer has
 /// its weights [outputs x inputs], column by column, then its biases [outputs].
 class MlpShape {

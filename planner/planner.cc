@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "planner/label_search.h"
 #include "worlds/uav/baselines.h"
 

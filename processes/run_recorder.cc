@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/installation.h"
 
 namespace fresco {

@@ -4,15 +4,13 @@
 
 #include <csignal>
 
-#include "actors/actor_memory.h"
-#include "core/atomic_file.h"
+#include "actors/served_run.h"
 #include "core/clock.h"
 #include "core/error.h"
-#include "core/folder_lock.h"
+#include "core/files.h"
 #include "core/identifier.h"
 #include "core/installation.h"
-#include "core/output_folder.h"
-#include "learner/learner_memory.h"
+#include "learner/learner_process.h"
 #include "msgs/channels.h"
 
 namespace fresco {

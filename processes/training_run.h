@@ -15,7 +15,7 @@
 #include "msgs/message_bus.h"
 #include "processes/restart_policy.h"
 #include "processes/run_recorder.h"
-#include "storage/resumption.h"
+#include "storage/checkpoint_folder.h"
 #include "storage/run_folder.h"
 
 namespace fresco {

@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "report/flight_map.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
 #include "report/study_statistics.h"
-#include "storage/flown_policy.h"
 #include "storage/policy.h"
 #include "worlds/uav/baselines.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {

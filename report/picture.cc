@@ -10,10 +10,9 @@
 #include <fstream>
 #include <optional>
 
-#include "core/atomic_file.h"
-#include "core/check.h"
 #include "core/child_process.h"
 #include "core/error.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {

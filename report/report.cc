@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/check.h"
-#include "core/version.h"
+#include "core/error.h"
+#include "core/installation.h"
 #include "report/report_html.h"
 #include "report/result_display.h"
 

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {

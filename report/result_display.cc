@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "storage/flown_policy.h"
 #include "storage/optimum_search.h"
+#include "storage/policy.h"
 #include "worlds/uav/aoi_figures.h"
 
 namespace fresco {

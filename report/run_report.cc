@@ -8,11 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/atomic_file.h"
-#include "core/check.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "report/result_display.h"
-#include "storage/flown_policy.h"
 #include "storage/network_file.h"
 #include "storage/policy.h"
 #include "worlds/uav/baselines.h"

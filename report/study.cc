@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/live_line.h"
 #include "core/signals.h"
 #include "processes/training_run.h"

@@ -8,7 +8,7 @@
 #include <map>
 #include <numeric>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {

@@ -6,8 +6,8 @@
 #include <csignal>
 #include <utility>
 
-#include "core/check.h"
 #include "core/clock.h"
+#include "core/error.h"
 
 namespace fresco {
 namespace {

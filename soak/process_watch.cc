@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/atomic_file.h"
 #include "core/clock.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {

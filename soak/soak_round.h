@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/authentication_key.h"
+#include "bus/authenticated_bus.h"
 #include "msgs/experiment.h"
 #include "soak/faults.h"
 #include "soak/soak_checks.h"

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <system_error>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
+#include "storage/run_folder.h"
+#include "storage/summary.h"
 
 namespace fresco {
 namespace {
 
+constexpr char kFolder[] = "checkpoints";
 constexpr char kExtension[] = ".checkpoint";
 constexpr char kUnusable[] = ".unusable";
 constexpr int kDigits = 12;
@@ -20,6 +23,52 @@ bool IsCheckpointName(const std::filesystem::path& path) {
   const std::string stem = path.stem();
   return path.extension() == kExtension && stem.size() == kDigits &&
          std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+void RefuseCompleteRun(const std::filesystem::path& folder) {
+  const auto path = folder / "summary.json";
+  if (std::filesystem::exists(path) && IsFinished(ReadFile(path))) {
+    throw UsageError(fmt::format("--resume: the run in {} is complete", folder.string()));
+  }
+}
+
+void CheckOrigin(const Checkpoint& checkpoint, const Experiment& experiment, const std::string& path) {
+  if (checkpoint.experiment.hash() != experiment.hash()) {
+    throw UsageError(
+        fmt::format("--resume: {} has configuration {:08x}, expected {:08x} (config.textproto and --set); "
+                    "only fields of run may change when a run is resumed",
+                    path, checkpoint.experiment.hash(), experiment.hash()));
+  }
+  if (checkpoint.arithmetic_fingerprint != ArithmeticFingerprint()) {
+    throw UsageError(
+        fmt::format("--resume: {} was made with arithmetic {:08x}, but this program's is {:08x}, so the "
+                    "weights would have "
+                    "other bits; resume with the same build on the same kind of processor",
+                    path, checkpoint.arithmetic_fingerprint, ArithmeticFingerprint()));
+  }
+}
+
+/// Finds the latest checkpoint from which the run can continue. Throws UsageError if there are checkpoints,
+/// but none can be used.
+void FindLatestUsable(const std::filesystem::path& folder, Resumption& found) {
+  for (const std::filesystem::path& path : CheckpointFolder(folder).Latest()) {
+    try {
+      Checkpoint checkpoint = ParseCheckpoint(ReadFile(path), path.string());
+      CheckOrigin(checkpoint, found.experiment, path.string());
+      found.checkpoint = std::move(checkpoint);
+      return;
+    } catch (const Error& error) {
+      found.unusable.push_back({path, error.what()});
+    }
+  }
+  if (!found.unusable.empty()) {
+    std::string problems;
+    for (const UnusableCheckpoint& checkpoint : found.unusable) {
+      problems += "\n  " + checkpoint.problem;
+    }
+    throw UsageError(fmt::format("{}: none of its {} checkpoints can be used:{}", (folder / kFolder).string(),
+                                 found.unusable.size(), problems));
+  }
 }
 
 }  // namespace
@@ -38,6 +87,8 @@ void SetAside(const std::vector<UnusableCheckpoint>& checkpoints) {
                  aside.filename().string());
   }
 }
+
+CheckpointFolder::CheckpointFolder(const std::filesystem::path& run) : directory_(run / kFolder) {}
 
 std::filesystem::path CheckpointFolder::PathFor(int64_t committed_orders) const {
   return directory_ / fmt::format("{:0{}}{}", committed_orders, kDigits, kExtension);
@@ -71,27 +122,18 @@ void CheckpointFolder::Prune(int kept) const {
   }
 }
 
-CheckpointFolder::Found CheckpointFolder::FindLatest(const Check& check) const {
-  Found found;
-  for (const std::filesystem::path& path : Latest()) {
-    try {
-      Checkpoint checkpoint = ParseCheckpoint(ReadFile(path), path.string());
-      check(checkpoint, path);
-      found.checkpoint = std::move(checkpoint);
-      return found;
-    } catch (const Error& error) {
-      found.unusable.push_back({path, error.what()});
-    }
+Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings) {
+  const auto config = folder / "config.textproto";
+  if (!std::filesystem::exists(config)) {
+    throw UsageError(
+        fmt::format("--resume: {} is not the folder of a run: it has no config.textproto; name the folder "
+                    "that the run was started with (--out){}",
+                    folder.string(), NewestRunHint(folder, "config.textproto")));
   }
-  if (!found.unusable.empty()) {
-    std::string problems;
-    for (const UnusableCheckpoint& checkpoint : found.unusable) {
-      problems += "\n  " + checkpoint.problem;
-    }
-    throw UsageError(fmt::format("{}: none of its {} checkpoints can be used:{}", directory_.string(),
-                                 found.unusable.size(), problems));
-  }
-  return found;
+  RefuseCompleteRun(folder);
+  Experiment experiment = Experiment::Load(config.string(), settings);
+  Resumption resumption{std::move(experiment), std::nullopt, {}};
+  FindLatestUsable(folder, resumption);
+  return resumption;
 }
-
 }  // namespace fresco

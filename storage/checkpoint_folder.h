@@ -1,11 +1,10 @@
-// Manages the checkpoint files of a run's folder: DIR/checkpoints/ORDERS.checkpoint, where ORDERS is the
-// number of committed orders in twelve digits. Finds the latest usable one and deletes old ones; FileWriter
-// writes them. Ignores files with other names. Different threads may use different objects.
+// The checkpoint files of a run's folder, and what is needed to resume the run from the latest usable one.
+// They are DIR/checkpoints/ORDERS.checkpoint; ORDERS is the number of committed orders in twelve digits.
+// FileWriter writes them. Files with other names are ignored. Different threads may use different objects.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +27,7 @@ void SetAside(const std::vector<UnusableCheckpoint>& checkpoints);
 class CheckpointFolder {
  public:
   /// `run` is the run's folder. It need not have checkpoints.
-  explicit CheckpointFolder(const std::filesystem::path& run) : directory_(run / "checkpoints") {}
+  explicit CheckpointFolder(const std::filesystem::path& run);
 
   /// The path of the checkpoint that is taken after so many committed orders.
   std::filesystem::path PathFor(int64_t committed_orders) const;
@@ -42,22 +41,26 @@ class CheckpointFolder {
   /// Returns the paths of all checkpoints, latest first.
   std::vector<std::filesystem::path> Latest() const;
 
-  /// A function that throws UsageError with the reason if a checkpoint that was read from this path can't be
-  /// used.
-  using Check = std::function<void(const Checkpoint&, const std::filesystem::path&)>;
-
-  /// The checkpoint from which a run can continue.
-  struct Found {
-    std::optional<Checkpoint> checkpoint = {};      ///< none: the folder has no checkpoint at all
-    std::vector<UnusableCheckpoint> unusable = {};  ///< later checkpoints, which can't be used
-  };
-
-  /// Finds the latest checkpoint that can be read, is whole and passes the check. Throws UsageError if there
-  /// are checkpoints, but none can be used. Changes nothing. The caller holds the folder's lock.
-  Found FindLatest(const Check& check) const;
-
  private:
   std::filesystem::path directory_;
 };
+
+/// What is needed to resume a run that was interrupted.
+struct Resumption {
+  Experiment experiment;
+  std::optional<Checkpoint> checkpoint;      ///< none: the run begins again with its first order
+  std::vector<UnusableCheckpoint> unusable;  ///< later checkpoints that can't be used; the learner calls
+                                             ///< SetAside
+};
+
+/// How long to wait for the lock of a folder to resume, since a learner that is about to end may still be
+/// writing, microseconds.
+inline constexpr int64_t kResumePatienceUs = 5'000'000;
+
+/// Reads the folder of a run that is incomplete or whose search for the optimum was stopped. Finds the latest
+/// checkpoint that is complete and has the run's configuration and this program's arithmetic. `settings` may
+/// change fields of `run` only. Changes nothing. The caller holds the folder's lock. Throws UsageError if the
+/// folder holds no run or a complete one, or if it has checkpoints but none can be used.
+Resumption ReadResumption(const std::filesystem::path& folder, const Settings& settings);
 
 }  // namespace fresco

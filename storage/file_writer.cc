@@ -7,8 +7,8 @@
 #include <exception>
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 
 namespace fresco {
 

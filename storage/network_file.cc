@@ -6,10 +6,10 @@
 #include <cstring>
 #include <limits>
 
-#include "core/atomic_file.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
-#include "core/version.h"
+#include "core/files.h"
+#include "core/installation.h"
 #include "msgs/proto/network.pb.h"
 
 namespace fresco {
@@ -40,8 +40,7 @@ std::string SerializeNetworkFile(const StoredNetwork& network) {
   for (const int size : shape.layer_sizes()) {
     file.add_layer_sizes(size);
   }
-  const std::span<const float> values(network.parameters.data(),
-                                      static_cast<size_t>(network.parameters.size()));
+  const std::span<const float> values = Values(network.parameters);
   file.set_parameters(values.data(), values.size_bytes());
   file.set_crc32c(Crc32c(values));
   file.set_version(network.version);
@@ -50,10 +49,6 @@ std::string SerializeNetworkFile(const StoredNetwork& network) {
   file.set_config_text(network.experiment.Text());
   file.set_software_version(kSoftwareVersion);
   return file.SerializeAsString();
-}
-
-void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network) {
-  WriteFileAtomically(path, SerializeNetworkFile(network));
 }
 
 StoredNetwork ParseNetworkFile(std::string_view content, const std::string& origin) {

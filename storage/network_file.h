@@ -1,4 +1,4 @@
-// Writes and reads network files, the policies that a run produces (best.network, final.network). Reading
+// Converts the policies that a run produces to network files (best.network, final.network) and back. Reading
 // refuses damaged and foreign files and those of a newer version. Any thread may call these functions.
 #pragma once
 
@@ -22,9 +22,6 @@ struct StoredNetwork {
 
 /// Returns the bytes of a network file.
 std::string SerializeNetworkFile(const StoredNetwork& network);
-
-/// Writes a network file atomically. Throws Failure if it can't be written.
-void WriteNetworkFile(const std::filesystem::path& path, const StoredNetwork& network);
 
 /// Parses the bytes of a network file. Throws UsageError that names `origin` (the file) and what is wrong: it
 /// is not a network file, is cut short, has a wrong CRC, or has sizes that contradict its configuration.

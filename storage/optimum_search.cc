@@ -12,19 +12,8 @@
 namespace fresco {
 
 const char* SearchEndName(SearchEnd end) {
-  switch (end) {
-    case SearchEnd::kOff:
-      return "off";
-    case SearchEnd::kProved:
-      return "proved";
-    case SearchEnd::kLimit:
-      return "limit";
-    case SearchEnd::kStopped:
-      return "stopped";
-    case SearchEnd::kFailed:
-      break;
-  }
-  return "failed";
+  constexpr const char* kNames[] = {"off", "proved", "limit", "stopped", "failed"};
+  return kNames[static_cast<size_t>(end)];
 }
 
 OptimumSearch::OptimumSearch(const World& world, Limits limits, ProcessorClock processor_clock)
@@ -43,7 +32,7 @@ OptimumSearch::~OptimumSearch() {
 }
 
 /// Lowers the priority of the calling thread, so that the training and the network threads go first.
-void OptimumSearch::TakeLowPriority() {
+void OptimumSearch::SetLowPriority() {
   constexpr int kLeastUrgent = 19;
   const std::lock_guard lock(mutex_);
   thread_id_ = static_cast<int>(syscall(SYS_gettid));
@@ -52,7 +41,7 @@ void OptimumSearch::TakeLowPriority() {
   }
 }
 
-void OptimumSearch::TakeFullPriority() {
+void OptimumSearch::SetFullPriority() {
   const std::lock_guard lock(mutex_);
   hurried_ = true;
   if (thread_id_ != 0 && !ended_) {  // after a thread has ended, another one may have its id
@@ -61,7 +50,7 @@ void OptimumSearch::TakeFullPriority() {
 }
 
 void OptimumSearch::Search() {
-  TakeLowPriority();
+  SetLowPriority();
   std::shared_ptr<const Plan> plan;
   try {
     PlannerOptions options;
@@ -117,7 +106,7 @@ bool OptimumSearch::WaitForEnd(int64_t timeout_us) {
 
 void OptimumSearch::Stop() {
   stop_ = true;
-  TakeFullPriority();
+  SetFullPriority();
   if (thread_.joinable()) {
     thread_.join();
   }

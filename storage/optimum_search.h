@@ -67,7 +67,7 @@ class OptimumSearch {
 
   /// Gives the search's thread the priority of the thread that constructed this object. The system may refuse
   /// that to a program without privileges (RLIMIT_NICE); then the search keeps its low priority.
-  void TakeFullPriority();
+  void SetFullPriority();
 
   /// Waits at most `timeout_us` until the search ends. Returns whether it has ended.
   bool WaitForEnd(int64_t timeout_us);
@@ -82,7 +82,7 @@ class OptimumSearch {
   void Search();
   bool KeepGoing(const PlannerProgress& progress);
   SearchEnd EndOf(const Plan* plan) const;
-  void TakeLowPriority();
+  void SetLowPriority();
 
   const World* world_;
   Limits limits_;
@@ -92,7 +92,7 @@ class OptimumSearch {
   mutable std::mutex mutex_;
   std::condition_variable ended_changed_;
   double processor_seconds_ = 0;  // taken so far
-  bool hurried_ = false;          // TakeFullPriority was called
+  bool hurried_ = false;          // SetFullPriority was called
   int thread_id_ = 0;             // the system's id of the search's thread; 0 before it runs
   bool ended_ = false;
   std::optional<OptimumBound> bound_;

@@ -1,34 +1,22 @@
-// Reads and flies the policies that --policy can name: baselines, trained networks, the exact optimum. The
-// functions may be called from any thread.
+// Reads from the command line which policy to fly in which world, and flies it greedily: a baseline, a
+// trained network or the exact optimum. For `evaluate`, `fly` and reports. Any thread may call these
+// functions.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "msgs/experiment.h"
 #include "planner/planner.h"
 #include "storage/network_file.h"
 #include "worlds/uav/aoi_figures.h"
 
+namespace CLI {
+class App;
+}
+
 namespace fresco {
-
-inline constexpr char kAoiPolicy[] = "aoi";
-inline constexpr char kDistancePolicy[] = "distance";
-inline constexpr char kOptimalPolicy[] = "optimal";
-
-/// The possible values of --policy, for texts.
-inline constexpr char kPolicyKinds[] =
-    "aoi, distance, optimal, the folder of a run (with a best.network), a network file or a checkpoint";
-
-/// Whether this policy needs no file: aoi, distance or optimal.
-bool IsBuiltInPolicy(const std::string& policy);
-
-/// Reads the network that a path names. The path may be a network file, the folder of a run (its
-/// best.network) or a checkpoint (its best network so far). Throws UsageError that says what a policy can be
-/// if the path is none of these.
-StoredNetwork ReadPolicy(const std::string& policy);
-
-/// Flies one greedy episode of a network in `world`, with the masks of `experiment`. Throws UsageError if the
-/// network is for another number of sensors.
-Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
 
 /// The limits of a search for the optimum.
 struct PlannerLimits {
@@ -36,6 +24,55 @@ struct PlannerLimits {
   int64_t memory_bytes = PlannerOptions{}.memory_bytes;  ///< memory for tables and labels
   bool show_progress = false;  ///< whether to show a line of progress on standard error
 };
+
+/// The values of the command line options.
+struct PolicyChoice {
+  std::string config;                 ///< empty: the configuration of the trained policy, or
+                                      ///< kDefaultExperiment
+  std::vector<std::string> settings;  ///< path=value, applied to the configuration
+  std::string policy;
+  PlannerLimits limits;
+};
+
+/// Adds --config, --set, --policy, --time-limit-s and --memory-limit-mb, whose values parsing writes to
+/// `choice`.
+void AddPolicyOptions(CLI::App& app, PolicyChoice& choice);
+
+/// A policy and the experiment in whose world it flies, read and checked.
+struct ChosenPolicy {
+  Experiment experiment;
+  std::optional<StoredNetwork> network;  ///< none if the policy is a baseline or the optimum
+};
+
+/// Reads the files that the choice names. Throws UsageError if they can't be used or do not fit together.
+ChosenPolicy ReadChoice(const PolicyChoice& choice);
+
+/// A flight, its world, and the experiment that defines the world.
+struct FlownPolicy {
+  explicit FlownPolicy(const Experiment& given) : experiment(given), world(given.scenario()) {}
+  Experiment experiment;
+  World world;
+  Episode flight;
+  std::optional<Plan> plan;  ///< set if the policy is "optimal"
+};
+
+/// Flies one episode of the policy that ReadChoice returned. The search for the optimum ends early if the
+/// program is asked to stop.
+FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen);
+
+/// Returns the name of the best flight that a search found: "exact optimum" only if that is proved.
+std::string FoundFlightName(bool proved);
+
+/// Returns the name of the flight: the policy as it was named on the command line, or FoundFlightName if the
+/// search for the optimum ended before the proof.
+std::string FlightName(const FlownPolicy& flown, const std::string& policy);
+
+/// Describes a flight: "aoi: arrived; average AoI 17.543 slots, total AoI 3684, 14211 J left".
+std::string FlightSummary(const FlownPolicy& flown, const std::string& policy);
+
+/// Flies one greedy episode of a network in `world`, with the masks of `experiment`. Throws UsageError if the
+/// network is for another number of sensors.
+Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
 
 /// Searches for the exact optimum until it is proved, a limit is reached or the program is asked to stop.
 /// Returns the best flight found.

@@ -1,13 +1,13 @@
 #include "storage/run_folder.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <ctime>
 #include <system_error>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
-#include "core/folder_lock.h"
-#include "core/output_folder.h"
+#include "core/files.h"
 #include "storage/network_file.h"
 
 namespace fresco {
@@ -120,6 +120,15 @@ std::string NewestRunHint(const std::filesystem::path& folder, const std::string
     }
   }
   return newest.empty() ? "" : "; the newest run in it is " + newest.string();
+}
+
+std::filesystem::path NewRunFolder() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y%m%dT%H%M%SZ", &utc);
+  return std::filesystem::path("runs") / fmt::format("{}-{}", name, getpid());
 }
 
 }  // namespace fresco

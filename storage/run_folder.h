@@ -2,7 +2,7 @@
 // optimum.json, summary.json and checkpoints/. Every file is complete at all times. A thread of its own
 // (FileWriter) writes the files that change during the training, so a full disk does not stop the training.
 // LearnerProcess owns one; only its training thread may use it. Only one process at a time may work in a
-// folder; callers make sure of that (core/folder_lock.h).
+// folder; callers make sure of that (core/files.h).
 #pragma once
 
 #include <filesystem>
@@ -72,5 +72,9 @@ class RunFolder {
 /// the newest run in it is runs/NAME", which is the one with the newest `file`. Returns "" if no folder in it
 /// has that file.
 std::string NewestRunHint(const std::filesystem::path& folder, const std::string& file);
+
+/// Returns runs/<time>-<process id> below the current directory; the time is the present one, UTC. Does not
+/// make the folder. Any thread may call it.
+std::filesystem::path NewRunFolder();
 
 }  // namespace fresco

@@ -4,15 +4,38 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/identifier.h"
-#include "core/version.h"
+#include "core/installation.h"
 #include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
+
+/// A counter and its name.
+struct BusCounterField {
+  const char* name;
+  int64_t BusCounters::*value;
+};
+/// Every counter, in the order of the struct.
+constexpr BusCounterField kBusCounterFields[] = {
+    {"received", &BusCounters::received},
+    {"lost", &BusCounters::lost},
+    {"duplicate", &BusCounters::duplicate},
+    {"rejected", &BusCounters::rejected},
+    {"rejected_malformed", &BusCounters::rejected_malformed},
+    {"rejected_foreign", &BusCounters::rejected_foreign},
+    {"rejected_inconsistent", &BusCounters::rejected_inconsistent},
+    {"rejected_arithmetic", &BusCounters::rejected_arithmetic},
+    {"rejected_unauthenticated", &BusCounters::rejected_unauthenticated},
+    {"reordered_episodes", &BusCounters::reordered_episodes},
+    {"stale_statuses", &BusCounters::stale_statuses},
+    {"crowded_statuses", &BusCounters::crowded_statuses},
+    {"weights_chunks_sent", &BusCounters::weights_chunks_sent},
+    {"weights_chunks_repeated", &BusCounters::weights_chunks_repeated},
+};
 
 OrderedJson BaselineFigures(const World& world, BaselineKind kind) {
   const Episode flight = FlyBaseline(world, kind);
@@ -63,6 +86,23 @@ void AddOptimum(const SummaryInputs& inputs, OrderedJson& json) {
 
 }  // namespace
 
+std::map<std::string, int64_t> ToMap(const BusCounters& counters) {
+  std::map<std::string, int64_t> map;
+  for (const BusCounterField& field : kBusCounterFields) {
+    map[field.name] = counters.*field.value;
+  }
+  return map;
+}
+
+BusCounters FromMap(const std::map<std::string, int64_t>& map) {
+  BusCounters counters;
+  for (const BusCounterField& field : kBusCounterFields) {
+    const auto found = map.find(field.name);
+    counters.*field.value = found == map.end() ? 0 : found->second;
+  }
+  return counters;
+}
+
 bool IsFinished(const std::string& summary_json) {
   const auto summary = nlohmann::json::parse(summary_json, nullptr, false);
   return summary.is_object() && summary.value("completed", false) &&
@@ -83,8 +123,6 @@ std::string OptimumJson(const World& world, const Plan& plan) {
 
 std::string SummaryJson(const SummaryInputs& inputs) {
   const TrainerProgress& progress = inputs.trainer.progress();
-  const Vector& weights = inputs.trainer.current();
-  const std::span<const float> values(weights.data(), static_cast<size_t>(weights.size()));
   OrderedJson json;
   json["run_id"] = IdentifierText(inputs.run_id);
   json["config_hash"] = fmt::format("{:08x}", inputs.experiment.hash());
@@ -96,7 +134,7 @@ std::string SummaryJson(const SummaryInputs& inputs) {
   json["wall_s"] = inputs.wall_s;
   json["updates_per_s"] = static_cast<double>(progress.updates) / inputs.wall_s;
   json["transitions_per_s"] = static_cast<double>(progress.transitions) / inputs.wall_s;
-  json["weights_crc32c"] = fmt::format("{:08x}", Crc32c(values));
+  json["weights_crc32c"] = fmt::format("{:08x}", Crc32c(Values(inputs.trainer.current())));
   AddPolicy(inputs.trainer.best(), json);
   AddOptimum(inputs, json);
   json["baselines"] = {{"aoi", BaselineFigures(inputs.world, BaselineKind::kAoi)},

@@ -2,16 +2,40 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <string>
 
 #include "msgs/experiment.h"
 #include "planner/planner.h"
-#include "storage/bus_counters.h"
 #include "storage/optimum_search.h"
 #include "training/trainer.h"
 
 namespace fresco {
+
+/// Counts what happened to the learner's messages. The counters are in `bus` of summary.json, in the
+/// learner's status and in checkpoints.
+struct BusCounters {
+  int64_t received = 0;                  ///< messages of this run that were received
+  int64_t lost = 0;                      ///< orders whose result had to be asked for again
+  int64_t duplicate = 0;                 ///< messages of transitions that brought nothing new
+  int64_t rejected = 0;                  ///< sum of the five counters below
+  int64_t rejected_malformed = 0;        ///< messages that do not decode or have values out of range
+  int64_t rejected_foreign = 0;          ///< of another run or configuration, or of an order never written
+  int64_t rejected_inconsistent = 0;     ///< results whose episode does not follow from its actions
+  int64_t rejected_arithmetic = 0;       ///< statuses of actors whose arithmetic differs
+  int64_t rejected_unauthenticated = 0;  ///< messages made with another key, or with none
+  int64_t reordered_episodes = 0;        ///< episodes that were complete before an earlier one
+  int64_t stale_statuses = 0;            ///< statuses that are not newer than the actor's last one
+  int64_t crowded_statuses = 0;          ///< statuses of actors beyond Roster::kMaximumActors
+  int64_t weights_chunks_sent = 0;       ///< chunks of networks sent
+  int64_t weights_chunks_repeated = 0;   ///< those of them that were sent again because an actor asked
+};
+
+/// The counters by name.
+std::map<std::string, int64_t> ToMap(const BusCounters& counters);
+
+/// Ignores names that are no counter's. Counters that the map does not name are 0.
+BusCounters FromMap(const std::map<std::string, int64_t>& map);
 
 /// The number of checkpoints that this process took, and the longest pause of the training for one of them.
 struct CheckpointFigures {

@@ -5,7 +5,7 @@
 
 #include "core/signals.h"
 #include "report/result_display.h"
-#include "storage/flown_policy.h"
+#include "storage/policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

@@ -7,12 +7,12 @@
 #include <optional>
 #include <thread>
 
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/installation.h"
-#include "core/output_folder.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
 #include "report/figure_writer.h"
 #include "tools/subcommands.h"
 

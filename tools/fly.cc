@@ -6,8 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "bus/command_line.h"
-#include "core/attentive_clock.h"
+#include "bus/open_bus.h"
 #include "core/clock.h"
 #include "core/identifier.h"
 #include "core/installation.h"
@@ -17,8 +16,7 @@
 #include "msgs/flight_messages.h"
 #include "msgs/message_bus.h"
 #include "msgs/protocol_times.h"
-#include "msgs/scenario_codec.h"
-#include "storage/flown_policy.h"
+#include "storage/policy.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

@@ -5,15 +5,15 @@
 #include <filesystem>
 #include <optional>
 
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/error.h"
-#include "learner/learner_memory.h"
+#include "learner/learner_process.h"
 #include "logs/retrain_run.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
-#include "storage/new_run_folder.h"
+#include "storage/run_folder.h"
 #include "tools/subcommands.h"
 
 namespace fresco {

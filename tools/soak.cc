@@ -7,15 +7,15 @@
 #include <memory>
 #include <optional>
 
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/installation.h"
 #include "core/live_line.h"
-#include "core/output_folder.h"
 #include "core/signals.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
 #include "processes/training_run.h"
 #include "soak/soak_report.h"
 #include "soak/soak_round.h"

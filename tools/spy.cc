@@ -89,7 +89,7 @@ std::vector<std::string> JavaCommand(const SpyOptions& options) {
           "-cp",
           ClassPath(),
           "fresco.spy.Main",
-          NormalizeLcmUrl(options.lcm_url),
+          ParseLcmUrl(options.lcm_url).text,
           options.channel_prefix,
           fmt::format("{}", fmt::join(options.open, ",")),
           options.print_table ? "true" : "false"};

@@ -5,17 +5,17 @@
 #include <filesystem>
 #include <optional>
 
-#include "bus/command_line.h"
+#include "bus/open_bus.h"
 #include "core/command_line.h"
 #include "core/installation.h"
 #include "core/live_line.h"
 #include "core/signals.h"
+#include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "msgs/settings.h"
 #include "processes/training_run.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
-#include "storage/new_run_folder.h"
+#include "storage/run_folder.h"
 #include "storage/summary.h"
 #include "tools/subcommands.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/check.h"
-#include "core/memory_need.h"
+#include "core/error.h"
+#include "core/memory.h"
 
 namespace fresco {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "core/check.h"
-#include "core/memory_need.h"
+#include "core/error.h"
+#include "core/memory.h"
 
 namespace fresco {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "training/schedules.h"
 
 namespace fresco {
@@ -41,8 +41,8 @@ Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput
       least_values_(static_cast<size_t>(world.maximum_transitions())) {}
 
 void Trainer::Begin() {
-  Offer(NetworkKind::kCurrent, 0, dqn_.current());
-  Offer(NetworkKind::kTarget, 0, dqn_.target());
+  Offer({NetworkKind::kCurrent, 0}, dqn_.current());
+  Offer({NetworkKind::kTarget, 0}, dqn_.target());
   for (int i = 0; i < experiment_.schedule().window(); ++i) {
     WriteTrainingOrder();
   }
@@ -140,17 +140,17 @@ void Trainer::UpdateOnce() {
 
 void Trainer::CopyToTarget() {
   dqn_.CopyToTarget();
-  Offer(NetworkKind::kTarget, ++progress_.target_version, dqn_.target());
+  Offer({NetworkKind::kTarget, ++progress_.target_version}, dqn_.target());
 }
 
 void Trainer::MakeVersion() {
-  Offer(NetworkKind::kCurrent, ++progress_.current_version, dqn_.current());
+  Offer({NetworkKind::kCurrent, ++progress_.current_version}, dqn_.current());
 }
 
-void Trainer::Offer(NetworkKind kind, int32_t version, const Vector& parameters) {
+void Trainer::Offer(NetworkVersion version, const Vector& parameters) {
   const auto copy = std::make_shared<const Vector>(parameters);
-  versions_[{kind, version}] = {kind, version, progress_.updates, copy};
-  output_.version(kind, version, copy);
+  versions_[version] = {version, progress_.updates, copy};
+  output_.version(version, copy);
 }
 
 /// Drops the versions that no order in flight names. An order names the versions that are newest when it is
@@ -160,8 +160,8 @@ void Trainer::ForgetVersions() {
   const int32_t current = none ? progress_.current_version : orders_.front().order.current_version;
   const int32_t target = none ? progress_.target_version : orders_.front().order.target_version;
   std::erase_if(versions_, [&](const auto& entry) {
-    const auto& [kind, version] = entry.first;
-    return version < (kind == NetworkKind::kCurrent ? current : target);
+    const auto& [kind, number] = entry.first;
+    return number < (kind == NetworkKind::kCurrent ? current : target);
   });
 }
 

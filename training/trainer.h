@@ -13,7 +13,6 @@
 
 #include "msgs/experiment.h"
 #include "msgs/order.h"
-#include "training/action_history.h"
 #include "training/dqn.h"
 #include "training/replay_memory.h"
 #include "training/training_state.h"
@@ -27,7 +26,7 @@ struct TrainerOutput {
   /// Takes a new order.
   std::function<void(const Order&)> order;
   /// Takes a new version of a network.
-  std::function<void(NetworkKind, int32_t version, std::shared_ptr<const Vector>)> version;
+  std::function<void(NetworkVersion, std::shared_ptr<const Vector>)> version;
   /// Takes the result of an evaluation.
   std::function<void(const Evaluation&)> evaluation;
   /// Called after every update, to report progress; may be empty.
@@ -64,8 +63,6 @@ class Trainer {
   const std::optional<Evaluation>& last_evaluation() const { return last_evaluation_; }
 
  private:
-  using VersionKey = std::pair<NetworkKind, int32_t>;
-
   void CommitTraining(const Episode& episode);
   void CommitEvaluation(const Order& order, const Episode& episode);
   void TakeLeastValues(const Episode& episode);
@@ -73,7 +70,7 @@ class Trainer {
   void UpdateOnce();
   void CopyToTarget();
   void MakeVersion();
-  void Offer(NetworkKind kind, int32_t version, const Vector& parameters);
+  void Offer(NetworkVersion version, const Vector& parameters);
   void ForgetVersions();
   void CheckState(const TrainingState& state) const;
   void CheckProgress(const TrainingState& state) const;
@@ -99,9 +96,10 @@ class Trainer {
   std::vector<float> next_observation_;
   std::vector<float> least_values_;  // for each transition of the episode that is being committed
   TrainerProgress progress_;
-  int64_t training_orders_ = 0;                  // training orders written so far
-  std::deque<OrderInFlight> orders_;             // sorted by index, from progress_.committed_orders on
-  std::map<VersionKey, VersionState> versions_;  // those that orders_ name, and the newest of each network
+  int64_t training_orders_ = 0;       // training orders written so far
+  std::deque<OrderInFlight> orders_;  // sorted by index, from progress_.committed_orders on
+  std::map<NetworkVersion, VersionState>
+      versions_;  // those that orders_ name, and the newest of each network
   std::optional<Evaluation> last_evaluation_;
   std::optional<BestNetwork> best_;
 };

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "msgs/order.h"
+#include "msgs/weights_codec.h"
 #include "nn/adam.h"
 #include "nn/mlp.h"
 #include "worlds/uav/aoi_figures.h"
@@ -47,10 +47,9 @@ struct TrainerProgress {
                                  ///< average
 };
 
-/// One version of one of the two networks.
+/// The parameters of a network version.
 struct VersionState {
-  NetworkKind kind = NetworkKind::kCurrent;
-  int32_t version = 0;
+  NetworkVersion version;
   int64_t updates = 0;  ///< updates made when the version was made
   std::shared_ptr<const Vector> parameters;
 };

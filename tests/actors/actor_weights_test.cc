@@ -13,8 +13,8 @@ class ActorWeights : public ActorTest {
   /// An order that names current 4 and target 3.
   order_t Newer(int64_t index) const {
     order_t order = OrderTo(kActorId, index);
-    order.current_version = kCurrent4.second;
-    order.target_version = kTarget3.second;
+    order.current_version = kCurrent4.number;
+    order.target_version = kTarget3.number;
     return order;
   }
 

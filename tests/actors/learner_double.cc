@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "msgs/weights_codec.h"
 #include "tests/nn/literal_network.h"
 
@@ -88,8 +88,8 @@ void LearnerDouble::SendVersion(NetworkVersion version, const Vector& parameters
   const auto values = SpanOf(parameters);
   for (int chunk = 0; chunk < ChunkCount(parameters.size()); ++chunk) {
     if (!without.contains(chunk)) {
-      Send(version.first == NetworkKind::kCurrent ? channels_.weights_current : channels_.weights_target,
-           WeightsChunk(values, Crc32c(values), version.second, chunk));
+      Send(version.kind == NetworkKind::kCurrent ? channels_.weights_current : channels_.weights_target,
+           WeightsChunk(values, Crc32c(values), version.number, chunk));
     }
   }
 }

@@ -126,7 +126,7 @@ TEST(NetworkStore, ForgetsAllThatWasWantedOnceRoomIsNeeded) {
   NetworkStore store(kParameters);
   std::set<NetworkVersion> wanted;
   for (int32_t version = 0; version < 30; ++version) {
-    wanted.emplace(NetworkKind::kCurrent, version);
+    wanted.insert({NetworkKind::kCurrent, version});
   }
   store.SetWanted(wanted);
   for (const NetworkVersion& version : wanted) {
@@ -143,7 +143,7 @@ TEST(NetworkStore, ReportsAtMostAsManyRangesAsAMessageTakes) {
   NetworkStore store(kLarge);
   std::set<NetworkVersion> wanted = {kCurrent7};
   for (int32_t version = 100; version < 200; ++version) {
-    wanted.emplace(NetworkKind::kTarget, version);
+    wanted.insert({NetworkKind::kTarget, version});
   }
   store.SetWanted(wanted);
   const auto chunks = ChunksOf(7, kLarge);
@@ -194,7 +194,7 @@ TEST(NetworkStore, ReportsAtMostAsManyVersionsAsAMessageTakes) {
   NetworkStore store(1);
   std::set<NetworkVersion> wanted;
   for (int32_t version = 0; version < 2 * kMaximumHeldVersions; ++version) {
-    wanted.emplace(NetworkKind::kCurrent, version);
+    wanted.insert({NetworkKind::kCurrent, version});
   }
   store.SetWanted(wanted);
   for (const NetworkVersion& version : wanted) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "actors/network_store.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "tests/nn/literal_network.h"
 
 namespace fresco {
@@ -32,14 +32,14 @@ inline std::vector<weights_t> ChunksOf(int32_t version, int64_t count) {
 
 /// Adds every chunk of a version.
 inline void Complete(NetworkStore& store, NetworkVersion version, int64_t count, int64_t now_us = 0) {
-  for (const weights_t& chunk : ChunksOf(version.second, count)) {
-    store.Add(version.first, chunk, now_us);
+  for (const weights_t& chunk : ChunksOf(version.number, count)) {
+    store.Add(version.kind, chunk, now_us);
   }
 }
 
 inline bool Holds(const NetworkStore& store, NetworkVersion version, int64_t count) {
   const auto parameters = store.Find(version);
-  const std::vector<float> values = ValuesOf(version.second, count);
+  const std::vector<float> values = ValuesOf(version.number, count);
   return parameters != nullptr && std::equal(values.begin(), values.end(), parameters->data(),
                                              parameters->data() + parameters->size());
 }

@@ -7,12 +7,13 @@
 #include <string>
 
 #include "planner/planner.h"
+#include "tests/worlds/table_one.h"
 
 namespace fresco {
 namespace {
 
 Scenario RandomDeployment(const benchmark::State& state) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m,
                                    static_cast<int>(state.range(0)), static_cast<uint64_t>(state.range(2)));
   scenario.coverage_radius_m = static_cast<double>(state.range(1)) * scenario.cell_m;

@@ -1,5 +1,5 @@
 // Key files: what is taken, and what is refused with the command that mends it.
-#include "bus/authentication_key.h"
+#include "bus/authenticated_bus.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,27 +12,27 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(LcmUrl, GetsTheDefaultsThatItDoesNotName) {
-  EXPECT_EQ(NormalizeLcmUrl("udpm://239.255.76.67:7667"),
+  EXPECT_EQ(ParseLcmUrl("udpm://239.255.76.67:7667").text,
             "udpm://239.255.76.67:7667?recv_buf_size=4194304&ttl=0");
-  EXPECT_EQ(NormalizeLcmUrl("udpm://224.0.0.1:1?ttl=1"), "udpm://224.0.0.1:1?recv_buf_size=4194304&ttl=1");
-  EXPECT_EQ(NormalizeLcmUrl("udpm://239.1.1.1:65535?recv_buf_size=9&ttl=255"),
+  EXPECT_EQ(ParseLcmUrl("udpm://224.0.0.1:1?ttl=1").text, "udpm://224.0.0.1:1?recv_buf_size=4194304&ttl=1");
+  EXPECT_EQ(ParseLcmUrl("udpm://239.1.1.1:65535?recv_buf_size=9&ttl=255").text,
             "udpm://239.1.1.1:65535?recv_buf_size=9&ttl=255");
-  EXPECT_EQ(NormalizeLcmUrl("udpm://239.1.1.1:07667?recv_buf_size=010&ttl=01"),  // no octal numbers
+  EXPECT_EQ(ParseLcmUrl("udpm://239.1.1.1:07667?recv_buf_size=010&ttl=01").text,  // no octal numbers
             "udpm://239.1.1.1:7667?recv_buf_size=10&ttl=1");
-  EXPECT_EQ(NormalizeLcmUrl("tcpq://localhost:0010"), "tcpq://localhost:10");
-  EXPECT_EQ(NormalizeLcmUrl("memq://"), "memq://");
-  EXPECT_EQ(NormalizeLcmUrl("tcpq://localhost:7700"), "tcpq://localhost:7700");
-  EXPECT_NO_THROW(NormalizeLcmUrl(kDefaultLcmUrl));
+  EXPECT_EQ(ParseLcmUrl("tcpq://localhost:0010").text, "tcpq://localhost:10");
+  EXPECT_EQ(ParseLcmUrl("memq://").text, "memq://");
+  EXPECT_EQ(ParseLcmUrl("tcpq://localhost:7700").text, "tcpq://localhost:7700");
+  EXPECT_NO_THROW(ParseLcmUrl(kDefaultLcmUrl));
 }
 
 TEST(LcmUrl, HasAnEndpointIfItIsMulticast) {
-  const auto endpoint = MulticastEndpointOf(NormalizeLcmUrl("udpm://239.255.76.67:17667?recv_buf_size=1000"));
+  const auto endpoint = ParseLcmUrl("udpm://239.255.76.67:17667?recv_buf_size=1000").multicast;
   ASSERT_TRUE(endpoint);
   EXPECT_EQ(endpoint->group, "239.255.76.67");
   EXPECT_EQ(endpoint->port, 17667);
   EXPECT_EQ(endpoint->receive_buffer_bytes, 1000);
-  EXPECT_FALSE(MulticastEndpointOf(NormalizeLcmUrl("tcpq://localhost:7700")));
-  EXPECT_FALSE(MulticastEndpointOf("memq://"));
+  EXPECT_FALSE(ParseLcmUrl("tcpq://localhost:7700").multicast);
+  EXPECT_FALSE(ParseLcmUrl("memq://").multicast);
 }
 
 TEST(LcmUrl, IsRefusedWithItsOffendingPartAndAnExample) {
@@ -59,7 +59,7 @@ TEST(LcmUrl, IsRefusedWithItsOffendingPartAndAnExample) {
   };
   for (const auto& [url, part] : bad) {
     try {
-      NormalizeLcmUrl(url);
+      ParseLcmUrl(url);
       ADD_FAILURE() << url;
     } catch (const Error& error) {
       EXPECT_EQ(error.exit_status(), 2);

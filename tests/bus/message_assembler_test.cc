@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_datagram.h"
+#include "bus/message_assembler.h"
 #include "tests/bus/lcm_datagrams.h"
 #include "tests/bus/text_messages.h"
 
@@ -24,7 +24,7 @@ class MessageAssemblerTest : public ::testing::Test {
     for (const std::string& datagram : datagrams) {
       const std::vector<char> exact(datagram.begin(),
                                     datagram.end());  // a sanitizer sees reads beyond its end
-      if (const auto message = assembler_.Take(std::as_bytes(std::span(exact)), sender, utime_)) {
+      if (const auto message = assembler_.Add(std::as_bytes(std::span(exact)), sender, utime_)) {
         heard.push_back(message->channel + ": " + Text(message->content));
       }
     }

@@ -14,8 +14,8 @@ using testing::Not;
 using testing::StartsWith;
 
 /// A program with commands, one of them with commands of its own.
-struct Program {
-  Program() {
+struct Commands {
+  Commands() {
     app.require_subcommand(1);
     CLI::App* train = app.add_subcommand("train", "");
     train->add_option("--config", config, "");
@@ -40,7 +40,7 @@ struct Program {
 
 std::string WrongUse(const std::vector<const char*>& arguments) {
   try {
-    Program().Parse(arguments);
+    Commands().Parse(arguments);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kUsage);
     return error.what();
@@ -49,18 +49,18 @@ std::string WrongUse(const std::vector<const char*>& arguments) {
 }
 
 TEST(CommandLine, IsParsed) {
-  Program program;
+  Commands program;
   EXPECT_TRUE(program.Parse({"train", "--config", "a", "--format", "json"}));
   EXPECT_EQ(program.config, "a");
   EXPECT_EQ(program.format, "json");
-  Program log;
+  Commands log;
   EXPECT_TRUE(log.Parse({"log", "cat", "a", "b"}));
   EXPECT_EQ(log.logs, (std::vector<std::string>{"a", "b"}));
 }
 
 TEST(CommandLine, LeavesNothingToDoAfterHelp) {
   testing::internal::CaptureStdout();
-  EXPECT_FALSE(Program().Parse({"log", "record", "--help"}));
+  EXPECT_FALSE(Commands().Parse({"log", "record", "--help"}));
   EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("--out"));
 }
 
@@ -96,6 +96,17 @@ TEST(CommandLine, SaysWhatIsMissingOrTooMuch) {
   EXPECT_THAT(WrongUse({"log"}), StartsWith("fresco log: expected a command: record, cat\n"));
   EXPECT_THAT(WrongUse({"log", "record"}), AllOf(StartsWith("fresco log record: "), HasSubstr("--out")));
   EXPECT_THAT(WrongUse({"train", "now"}), HasSubstr("fresco train: expected options only, found \"now\""));
+}
+
+TEST(Program, EndsWithTheStatusOfWhatItsFunctionReturnsOrThrows) {
+  const auto status = [](const std::string& name, const std::function<int()>& run) {
+    const char* const argv[] = {name.c_str()};
+    return Program(name, "", LogStyle::kPlain).Run(1, argv, run);
+  };
+  EXPECT_EQ(status("returns", [] { return 7; }), 7);
+  EXPECT_EQ(status("is-used-wrongly", []() -> int { throw UsageError("x"); }), 2);
+  EXPECT_EQ(status("fails", []() -> int { throw Failure("x"); }), 1);
+  EXPECT_EQ(status("has-a-defect", []() -> int { throw std::runtime_error("x"); }), 1);
 }
 
 }  // namespace

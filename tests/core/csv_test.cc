@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fresco {

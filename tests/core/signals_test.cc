@@ -9,13 +9,13 @@ namespace {
 
 TEST(StateSignal, IsTakenOnceHoweverOftenItCame) {
   StateSignal::Install();
-  EXPECT_FALSE(StateSignal::TakeRequest());
+  EXPECT_FALSE(StateSignal::ConsumeRequest());
   std::raise(SIGUSR1);
   std::raise(SIGUSR1);
-  EXPECT_TRUE(StateSignal::TakeRequest());
-  EXPECT_FALSE(StateSignal::TakeRequest());
+  EXPECT_TRUE(StateSignal::ConsumeRequest());
+  EXPECT_FALSE(StateSignal::ConsumeRequest());
   std::raise(SIGUSR1);
-  EXPECT_TRUE(StateSignal::TakeRequest());
+  EXPECT_TRUE(StateSignal::ConsumeRequest());
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "logs/event_log_reader.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -2,7 +2,7 @@
 // fits the memory of an actor, and says the same when it is read again.
 #include <cmath>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "worlds/uav/environment.h"

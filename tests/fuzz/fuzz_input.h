@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
 #include "msgs/wire.h"
 

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "bus/lcm_url.h"
-#include "core/check.h"
+#include "core/error.h"
 #include "msgs/channels.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -12,8 +12,8 @@ namespace fresco {
 namespace {
 
 void CheckUrl(const std::string& url) {
-  const std::string normal = NormalizeLcmUrl(url);
-  FRESCO_CHECK(NormalizeLcmUrl(normal) == normal);
+  const std::string normal = ParseLcmUrl(url).text;
+  FRESCO_CHECK(ParseLcmUrl(normal).text == normal);
 }
 
 void CheckPrefix(const std::string& prefix) {

@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_datagram.h"
 #include "bus/message_assembler.h"
-#include "core/big_endian.h"
-#include "core/check.h"
+#include "core/bytes.h"
+#include "core/error.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {
@@ -88,7 +87,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     utime += (first >> 4) * (MessageAssembler::kPatienceUs / 8);
     all.push_back({first % uint64_t{4}, std::string(datagram)});
     const std::vector<char> exact(datagram.begin(), datagram.end());
-    if (const auto message = assembler.Take(std::as_bytes(std::span(exact)), all.back().sender, utime)) {
+    if (const auto message = assembler.Add(std::as_bytes(std::span(exact)), all.back().sender, utime)) {
       CheckMessage(*message, all);
     }
     FRESCO_CHECK(assembler.memory_bytes() <= kMemoryBytes + 6 * size);  // what one message alone can take

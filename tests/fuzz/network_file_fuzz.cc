@@ -1,6 +1,6 @@
 // A network file, as it is and with a CRC that holds. What is accepted is written again as the same.
-#include "core/check.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
+#include "core/error.h"
 #include "msgs/proto/network.pb.h"
 #include "storage/network_file.h"
 #include "tests/fuzz/fuzz_input.h"

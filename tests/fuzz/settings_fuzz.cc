@@ -2,10 +2,10 @@
 // it names and no other.
 #include <google/protobuf/util/message_differencer.h>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "core/identifier.h"
 #include "msgs/config_reflection.h"
-#include "msgs/settings.h"
+#include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {

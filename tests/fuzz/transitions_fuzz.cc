@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
+#include "core/error.h"
 #include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "training/ledger.h"

@@ -2,8 +2,8 @@
 // own or gets the right one here. What decodes must encode to the same bytes again, and looks the same to
 // those who only peek; what nobody signed is not authentic.
 #include "bus/authenticated_bus.h"
-#include "core/check.h"
-#include "msgs/message_peek.h"
+#include "core/error.h"
+#include "msgs/message_decoder.h"
 #include "msgs/order.h"
 #include "msgs/run_announcements.h"
 #include "msgs/weights_codec.h"

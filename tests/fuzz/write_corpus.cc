@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "logs/event_log_writer.h"
 #include "storage/checkpoint_file.h"
 #include "storage/network_file.h"
@@ -145,7 +145,7 @@ void WriteFiles(const std::filesystem::path& directory) {
   Checkpoint checkpoint{experiment, 1, 2};
   TrainingState& training = checkpoint.training;
   training.orders.push_back({{.index = 0, .epsilon = 0.5, .seed = 1}, 0});
-  training.versions.push_back({NetworkKind::kCurrent, 0, 0, std::make_shared<const Vector>(parameters)});
+  training.versions.push_back({{NetworkKind::kCurrent, 0}, 0, std::make_shared<const Vector>(parameters)});
   training.current = training.target = parameters;
   training.adam = {1, 0.9, 0.999, parameters, parameters};
   training.actions = {0, 1, 2};

@@ -1,5 +1,5 @@
 // What is foretold of the learner's memory, against what its parts really take of the heap.
-#include "learner/learner_memory.h"
+#include "learner/learner_process.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,6 @@
 #include "tests/support/heap_use.h"
 #include "tests/support/sanitized.h"
 #include "tests/training/recorded_run.h"
-#include "training/action_history.h"
 #include "training/dqn.h"
 #include "training/ledger.h"
 #include "training/replay_memory.h"
@@ -87,7 +86,7 @@ TEST_F(LearnerMemoryTest, OfAPublishedVersionIsForetold) {
   const int64_t measured = HeapUseOf([&] {
     auto publisher = std::make_unique<WeightPublisher>();
     for (int version = 0; version < kVersions; ++version) {
-      publisher->Offer(NetworkKind::kCurrent, version, parameters);
+      publisher->Offer({NetworkKind::kCurrent, version}, parameters);
     }
     return publisher;
   });
@@ -102,7 +101,7 @@ void ExpectVersionsForetold(const Settings& settings) {
     run.Commit(run.Fly(run.next()));
     VersionsInFlight now;
     for (const VersionState& version : run.trainer.Save().versions) {
-      ++(version.kind == NetworkKind::kCurrent ? now.current : now.target);
+      ++(version.version.kind == NetworkKind::kCurrent ? now.current : now.target);
     }
     most = {std::max(most.current, now.current), std::max(most.target, now.target)};
   }

@@ -57,11 +57,11 @@ class LearnerNodeTest : public ::testing::Test {
 
 TEST_F(LearnerNodeTest, ShowsAWarningInItsStatusUntilItIsTakenBack) {
   EXPECT_EQ(NextStatus().warning, "");
-  node_.SetWarning("the last checkpoint could not be written: no space");
+  node_.Report({.warning = "the last checkpoint could not be written: no space"});
   EXPECT_EQ(NextStatus().warning, "the last checkpoint could not be written: no space");
-  node_.SetWarning(std::string(5000, 'w'));
+  node_.Report({.warning = std::string(5000, 'w')});
   EXPECT_EQ(NextStatus().warning, std::string(kMaximumWarningBytes, 'w'));
-  node_.SetWarning("");
+  node_.Report({});
   EXPECT_EQ(NextStatus().warning, "");
 }
 
@@ -69,13 +69,15 @@ TEST_F(LearnerNodeTest, TellsAGapOnlyToAProvedOptimum) {
   Evaluation evaluation;
   evaluation.arrived = true;
   evaluation.figures.average_aoi = 12;
-  node_.SetProgress({}, evaluation, BestNetwork{evaluation, nullptr});
-  node_.SetOptimum({2, false});
+  TrainingReport report{.last_evaluation = evaluation, .best = BestNetwork{evaluation, nullptr}};
+  report.optimum = {2, false};
+  node_.Report(report);
   learner_status_t status = NextStatus();
   EXPECT_EQ(status.lower_bound_average_aoi, 2);
   EXPECT_EQ(status.optimum_proved, 0);
   EXPECT_TRUE(std::isnan(status.gap_percent));
-  node_.SetOptimum({10, true});
+  report.optimum = {10, true};
+  node_.Report(report);
   status = NextStatus();
   EXPECT_EQ(status.optimum_proved, 1);
   EXPECT_EQ(status.gap_percent, 20);
@@ -137,7 +139,7 @@ TEST_F(LearnerNodeTest, CountsHowLongTheTrainerHasWaited) {
     node_.Step();
     EXPECT_FALSE(node_.WaitForNext(0));
   }
-  node_.SetFinishing("the optimum");
+  node_.Report({.finishing = "the optimum"});
   EXPECT_EQ(node_.StarvedSeconds(), 0);
   EXPECT_EQ(node_.WaitingFor(), "the optimum");
 }
@@ -155,7 +157,7 @@ TEST_F(LearnerNodeTest, IgnoresStatusesThatComeAgain) {
 
 TEST_F(LearnerNodeTest, CountsTheChunksOfNetworksThatItSends) {
   const auto parameters = std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1));
-  node_.OfferVersion(NetworkKind::kCurrent, 0, parameters);
+  node_.OfferVersion({NetworkKind::kCurrent, 0}, parameters);
   NextStatus();
   EXPECT_EQ(node_.counters().weights_chunks_sent, ChunkCount(parameters->size()));
   EXPECT_EQ(node_.counters().weights_chunks_repeated, 0);
@@ -164,9 +166,9 @@ TEST_F(LearnerNodeTest, CountsTheChunksOfNetworksThatItSends) {
 TEST_F(LearnerNodeTest, TellsItsState) {
   node_.WriteOrder(Order{});
   EXPECT_FALSE(node_.WaitForNext(0));
-  node_.OfferVersion(NetworkKind::kTarget, 5,
+  node_.OfferVersion({NetworkKind::kTarget, 5},
                      std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1)));
-  node_.SetWarning("the disk is full");
+  node_.Report({.warning = "the disk is full"});
   SendStatus(7, 0);
   NextStatus();
   NextStatus();

@@ -1,7 +1,7 @@
 // What the roster does with orders whose result is late.
 #include <map>
 
-#include "core/attentive_clock.h"
+#include "core/clock.h"
 #include "tests/learner/roster_fixture.h"
 
 namespace fresco {

@@ -22,12 +22,7 @@ class RosterReport : public RosterFixture {
   }
 
   static chunk_range_t Missing(NetworkKind kind, int32_t version, int32_t first, int32_t count) {
-    chunk_range_t range{};
-    range.network = static_cast<int8_t>(kind);
-    range.version = version;
-    range.first = first;
-    range.count = count;
-    return range;
+    return ChunkRange({kind, version}, first, count);
   }
 };
 

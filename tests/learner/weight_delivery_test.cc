@@ -78,7 +78,7 @@ class Simulation {
   void Offer() {
     if (now_us_ % network_.version_period_us == 0 && offered_ < network_.versions) {
       const NetworkKind kind = offered_ % 3 == 2 ? NetworkKind::kTarget : NetworkKind::kCurrent;
-      publisher_.Offer(kind, next_version_[kind]++, parameters_);
+      publisher_.Offer({kind, next_version_[kind]++}, parameters_);
       publisher_.Retain(next_version_[NetworkKind::kCurrent] - 4, next_version_[NetworkKind::kTarget] - 4);
       ++offered_;
     }

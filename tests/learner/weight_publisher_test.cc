@@ -14,7 +14,7 @@ namespace {
 TEST(WeightPublisher, SendsEachChunkOfANewVersionOnceInOrder) {
   WeightPublisher publisher;
   EXPECT_FALSE(publisher.Next(kNowUs));
-  publisher.Offer(NetworkKind::kCurrent, 7, ParametersOf(7));
+  publisher.Offer({NetworkKind::kCurrent, 7}, ParametersOf(7));
   EXPECT_EQ(Drain(publisher, kNowUs), ChunksOf(NetworkKind::kCurrent, 7));
   EXPECT_FALSE(publisher.Next(kNowUs + 10'000'000));
   EXPECT_EQ(publisher.sent_chunks(), kChunks);
@@ -26,7 +26,7 @@ TEST(WeightPublisher, SendsChunksThatMakeUpTheParametersWithTheirCrc) {
     const auto parameters = ParametersOf(3, values);
     const uint32_t crc = LiteralCrc32c(*parameters);
     WeightPublisher publisher;
-    publisher.Offer(NetworkKind::kTarget, 3, parameters);
+    publisher.Offer({NetworkKind::kTarget, 3}, parameters);
     std::vector<float> joined;
     while (const auto next = publisher.Next(kNowUs)) {
       const auto& [kind, chunk] = *next;
@@ -43,8 +43,8 @@ TEST(WeightPublisher, SendsChunksThatMakeUpTheParametersWithTheirCrc) {
 
 TEST(WeightPublisher, SendsOlderVersionsFirst) {
   WeightPublisher publisher;
-  publisher.Offer(NetworkKind::kCurrent, 9, ParametersOf(9));
-  publisher.Offer(NetworkKind::kCurrent, 8, ParametersOf(8));
+  publisher.Offer({NetworkKind::kCurrent, 9}, ParametersOf(9));
+  publisher.Offer({NetworkKind::kCurrent, 8}, ParametersOf(8));
   EXPECT_EQ(std::get<1>(Drain(publisher, kNowUs).front()), 8);
   publisher.Request(Range(NetworkKind::kCurrent, 9, 0, 1), kNowUs + 10'000);
   publisher.Request(Range(NetworkKind::kCurrent, 8, 3, 1), kNowUs + 10'000);
@@ -54,7 +54,7 @@ TEST(WeightPublisher, SendsOlderVersionsFirst) {
 
 TEST(WeightPublisher, DoesNotAnswerWithWhatMayStillBeOnItsWay) {
   WeightPublisher publisher;
-  publisher.Offer(NetworkKind::kCurrent, 1, ParametersOf(1));
+  publisher.Offer({NetworkKind::kCurrent, 1}, ParametersOf(1));
   publisher.Next(kNowUs);
   publisher.Next(kNowUs + 1000);
   publisher.Request(AllOf(1), kNowUs + 6'999);  // chunk 0 was sent 7 ms ago, chunk 1 less than 6 ms
@@ -68,7 +68,7 @@ TEST(WeightPublisher, DoesNotAnswerWithWhatMayStillBeOnItsWay) {
 
 TEST(WeightPublisher, SendsOnceWhatIsAskedForBeforeItWasSent) {
   WeightPublisher publisher;
-  publisher.Offer(NetworkKind::kCurrent, 1, ParametersOf(1));
+  publisher.Offer({NetworkKind::kCurrent, 1}, ParametersOf(1));
   publisher.Request(AllOf(1), kNowUs);
   EXPECT_EQ(Drain(publisher, kNowUs), ChunksOf(NetworkKind::kCurrent, 1));
   EXPECT_EQ(publisher.repeated_chunks(), 0);
@@ -77,8 +77,8 @@ TEST(WeightPublisher, SendsOnceWhatIsAskedForBeforeItWasSent) {
 TEST(WeightPublisher, DropsVersionsThatNoOrderCanName) {
   WeightPublisher publisher;
   for (int32_t version = 0; version < 4; ++version) {
-    publisher.Offer(NetworkKind::kCurrent, version, ParametersOf(static_cast<uint32_t>(version)));
-    publisher.Offer(NetworkKind::kTarget, version, ParametersOf(static_cast<uint32_t>(version)));
+    publisher.Offer({NetworkKind::kCurrent, version}, ParametersOf(static_cast<uint32_t>(version)));
+    publisher.Offer({NetworkKind::kTarget, version}, ParametersOf(static_cast<uint32_t>(version)));
   }
   publisher.Retain(3, 2);
   const Sent sent = Drain(publisher, kNowUs);

@@ -12,7 +12,7 @@ namespace {
 class WeightPublisherAsked : public ::testing::Test {
  protected:
   WeightPublisherAsked() {
-    publisher_.Offer(NetworkKind::kCurrent, 1, ParametersOf(1));
+    publisher_.Offer({NetworkKind::kCurrent, 1}, ParametersOf(1));
     Drain(publisher_, kNowUs);
   }
 
@@ -34,7 +34,7 @@ TEST_F(WeightPublisherAsked, SendsAgainOnceHoweverManyAsk) {
 }
 
 TEST_F(WeightPublisherAsked, AnswersTheUnionOfWhatIsMissing) {
-  publisher_.Offer(NetworkKind::kTarget, 1, ParametersOf(2));
+  publisher_.Offer({NetworkKind::kTarget, 1}, ParametersOf(2));
   Drain(publisher_, kNowUs);
   Ask(3, 1);
   publisher_.Request(Range(NetworkKind::kTarget, 1, 2, 1), kLaterUs);

@@ -56,12 +56,7 @@ inline Sent ChunksOf(NetworkKind kind, int32_t version, int first = 0, int end =
 }
 
 inline chunk_range_t Range(NetworkKind kind, int32_t version, int32_t first, int32_t count) {
-  chunk_range_t range{};
-  range.network = static_cast<int8_t>(kind);
-  range.version = version;
-  range.first = first;
-  range.count = count;
-  return range;
+  return ChunkRange({kind, version}, first, count);
 }
 
 /// All chunks of a version of the current network.

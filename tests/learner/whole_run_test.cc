@@ -101,8 +101,8 @@ class WholeRun : public ::testing::Test {
   TrainerOutput OutputTo(LearnerNode& node) {
     TrainerOutput output;
     output.order = [&](const Order& order) { node.WriteOrder(order); };
-    output.version = [&](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
-      node.OfferVersion(kind, version, std::move(parameters));
+    output.version = [&](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+      node.OfferVersion(version, std::move(parameters));
     };
     output.evaluation = [](const Evaluation&) {};
     return output;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/lcm_event.h"
+#include "bus/bus.h"
 
 namespace fresco {
 

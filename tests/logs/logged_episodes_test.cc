@@ -8,7 +8,7 @@
 
 #include "bus/authenticated_bus.h"
 #include "bus/bus.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/error.h"
 #include "tests/logs/run_log.h"
 #include "tests/support/temporary_folder.h"

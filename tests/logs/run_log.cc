@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "logs/event_log_writer.h"
 #include "msgs/weights_codec.h"
 

@@ -54,6 +54,51 @@ TEST(ConfigurationError, NamesFieldValueAndRange) {
   EXPECT_THAT(ErrorOf("scenario { maximum_aoi: 0 }"), HasSubstr("scenario.maximum_aoi: 0 is out of range"));
 }
 
+TEST(ConfigurationError, NamesTheRangeOfEveryValueOfTheScenario) {
+  struct Case {
+    std::string path;
+    std::string value;
+    std::string allowed;
+  };
+  const Case cases[] = {
+      {"slots", "0", "2 to 10000"},
+      {"slots", "10001", "2 to 10000"},
+      {"grid.columns", "0", "1 to 1000"},
+      {"grid.rows", "1001", "1 to 1000"},
+      {"grid.cell_m", "-25", "1e-06 to 1000000"},
+      {"slot_s", "nan", "1e-06 to 1000000"},
+      {"coverage_radius_m", "-1", "0 to 1000000"},
+      {"initial_energy_j", "0", "1e-06 to 1000000000000"},
+      {"radio.bandwidth_hz", "0", "1 to 1000000000000"},
+      {"radio.update_bits", "0", "1 to 1000000000000000"},
+      {"radio.noise_dbm", "101", "-300 to 100"},
+      {"radio.gain_at_1m_db", "-301", "-300 to 100"},
+      {"radio.altitude_m", "-1", "0 to 1000000"},
+      {"rotor.blade_profile_power_w", "-1", "0 to 1000000"},
+      {"rotor.induced_power_w", "-1", "0 to 1000000"},
+      {"rotor.tip_speed_mps", "0", "1e-06 to 1000000"},
+      {"rotor.induced_velocity_mps", "0", "1e-06 to 1000000"},
+      {"rotor.drag_ratio", "nan", "0 to 1000000"},
+      {"rotor.air_density_kgpm3", "-1", "0 to 1000000"},
+      {"rotor.solidity", "-1", "0 to 1000000"},
+      {"rotor.disk_area_m2", "-1", "0 to 1000000"},
+      {"speed_mps", "0", "1e-06 to 1000000"},
+      {"reward.k1", "-1", "0 to 1000000"},
+      {"reward.k2", "nan", "0 to 1000000"},
+      {"reward.k3", "-2", "0 to 1000000"},
+      {"maximum_aoi", "0", "1 to 10000"},
+      {"random_sensors.count", "251", "1 to 250"},
+  };
+  for (const Case& each : cases) {
+    const Settings settings = {{"scenario." + each.path, each.value}};
+    EXPECT_EQ(UsageErrorOf([&] { Experiment::Parse("", "my", settings); }),
+              "my: scenario." + each.path + ": " + each.value + " is out of range; allowed: " + each.allowed);
+  }
+  EXPECT_THAT(ErrorOf("scenario { sensor { x_m: inf } }"),
+              HasSubstr("scenario.sensor[0].x_m: inf is out of range; allowed: -1000000 to 1000000"));
+  EXPECT_THAT(ErrorOf("scenario { sensor { y_m: nan } }"), HasSubstr("scenario.sensor[0].y_m: nan"));
+}
+
 TEST(ConfigurationError, TakesNaNAndInfinityForOutOfRange) {
   EXPECT_THAT(ErrorOf("agent { discount: nan }"),
               HasSubstr("agent.discount: nan is out of range; allowed: 0 to 1"));

@@ -9,12 +9,13 @@
 #include "core/random.h"
 #include "msgs/order.h"
 #include "tests/msgs/message_samples.h"
+#include "tests/worlds/table_one.h"
 
 namespace fresco {
 namespace {
 
 Scenario ScenarioWith(int sensors) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, sensors, 4);
   return scenario;
 }

@@ -1,4 +1,4 @@
-#include "msgs/settings.h"
+#include "msgs/experiment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -88,5 +88,22 @@ TEST_F(ChunkIndexOf, RefusesNegativeVersions) {
   EXPECT_EQ(After(0, [](weights_t& message) { message.version = -1; }), -1);
 }
 
+TEST(NetworkVersion, IsTheSameInARangeOfItsChunks) {
+  Order order;
+  order.current_version = 7;
+  order.target_version = 3;
+  const auto [current, target] = VersionsOf(order);
+  EXPECT_EQ(current, (NetworkVersion{NetworkKind::kCurrent, 7}));
+  EXPECT_EQ(target, (NetworkVersion{NetworkKind::kTarget, 3}));
+  for (const NetworkVersion& version : {current, target}) {
+    const chunk_range_t range = ChunkRange(version, 4, 2);
+    EXPECT_EQ(VersionOf(range), version);
+    EXPECT_EQ(range.first, 4);
+    EXPECT_EQ(range.count, 2);
+  }
+  EXPECT_STREQ(Name(current.kind), "current");
+  EXPECT_STREQ(Name(target.kind), "target");
+}
+
 }  // namespace
 }  // namespace fresco

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "msgs/wire.h"
 #include "tests/msgs/message_samples.h"
 

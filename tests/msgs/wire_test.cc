@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bus/authenticated_bus.h"
-#include "core/crc32c.h"
+#include "core/bytes.h"
 #include "core/random.h"
 #include "msgs/order.h"
 #include "msgs/weights_codec.h"

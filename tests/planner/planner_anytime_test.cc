@@ -10,6 +10,7 @@
 #include "planner/planner.h"
 #include "tests/planner/exhaustive_search.h"
 #include "tests/planner/planner_scenarios.h"
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 
 namespace fresco {
@@ -53,7 +54,7 @@ struct Stopper {
 
 // So few labels a slot that the optimum's are dropped on the way: the bound has to remember them.
 TEST(PlannerProgress, ClaimsNoMoreThanIsProvedWhereLabelsAreDropped) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 3, 1);
   const World world(scenario);
   const Plan plan = PlanOptimally(world);
@@ -105,7 +106,7 @@ TEST(PlannerStopped, AtAnyCallItHasAFlightAndATrueBoundAndAsksNoMore) {
 
 // Large enough that tables and slots take more work than one call's.
 Scenario MediumScenario(int sensors, double radius_m) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 14;
   scenario.start = {6, 0};
   scenario.stop = {6, 13};
@@ -150,7 +151,7 @@ TEST(PlannerStopped, AsksInsideWideSlots) {
 
 // Tables of gigabytes, were they all wanted.
 TEST(PlannerStopped, HugeScenariosStopWhileTheyAreSetUp) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 60;
   scenario.start = {0, 0};
   scenario.stop = {59, 59};

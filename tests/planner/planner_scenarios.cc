@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "tests/worlds/literal_model.h"
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 
 namespace fresco {
@@ -44,7 +45,7 @@ void SetEnergy(Scenario* scenario, int distance, RandomStream* stream) {
 
 Scenario TinyScenario(uint32_t index) {
   RandomStream stream = TestStream(20, index);
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = Between(&stream, 1, 4);
   scenario.rows = Between(&stream, 1, 3);
   scenario.start = {Between(&stream, 0, scenario.columns - 1), Between(&stream, 0, scenario.rows - 1)};
@@ -58,7 +59,7 @@ Scenario TinyScenario(uint32_t index) {
   scenario.sensors =
       RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, sensors, 1000 + uint64_t{index});
   scenario.coverage_radius_m = 70 * stream.NextUniform();
-  scenario.rotor = Between(&stream, 0, 1) == 0 ? Rotor{} : LiteratureRotor();
+  scenario.rotor = Between(&stream, 0, 1) == 0 ? TableOne().rotor : LiteratureRotor();
   if (Between(&stream, 0, 2) == 0) {
     scenario.maximum_aoi = Between(&stream, 1, scenario.slots + 1);
   }

@@ -14,6 +14,7 @@
 #include "tests/planner/planner_scenarios.h"
 #include "tests/support/sanitized.h"
 #include "tests/worlds/literal_model.h"
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/baselines.h"
 
@@ -137,7 +138,7 @@ TEST(Planner, FindsTheOptimumOfExhaustiveSearchInEveryKindOfScenario) {
 
 // Sensors over the centres of cells, radius in cells, Table I otherwise.
 Scenario InCells(const std::vector<Cell>& cells, double radius) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   for (const Cell& cell : cells) {
     scenario.sensors.push_back({cell.column * scenario.cell_m, cell.row * scenario.cell_m, 1});
   }

@@ -4,9 +4,10 @@
 
 #include <cmath>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "tests/report/picture_files.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/worlds/table_one.h"
 #include "worlds/uav/baselines.h"
 
 namespace fresco {
@@ -14,7 +15,7 @@ namespace {
 
 /// A grid that is not square, three sensors (one between cells), 30 slots.
 World SmallWorld() {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = 12;
   scenario.rows = 8;
   scenario.slots = 30;

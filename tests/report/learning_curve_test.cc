@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "tests/report/picture_files.h"
 #include "tests/support/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/atomic_file.h"
+#include "core/files.h"
 #include "tests/report/picture_files.h"
 #include "tests/support/temporary_folder.h"
 

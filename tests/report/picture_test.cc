@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "tests/report/picture_files.h"
 #include "tests/support/temporary_folder.h"
 

@@ -14,6 +14,7 @@
 #include "msgs/experiment.h"
 #include "planner/planner.h"
 #include "report/report.h"
+#include "tests/worlds/table_one.h"
 #include "worlds/uav/baselines.h"
 
 namespace fresco {
@@ -93,7 +94,7 @@ void WriteRun(const std::filesystem::path& folder, const Experiment& experiment,
 }
 
 void WriteLarge(const std::filesystem::path& folder) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 100;
   scenario.slots = 1000;
   scenario.initial_energy_j = 300000;

@@ -63,7 +63,7 @@ TEST_F(CheckpointFile, ReadsBackEveryField) {
   EXPECT_EQ(training.orders.at(0).order, checkpoint_.training.orders[0].order);
   EXPECT_EQ(training.orders.at(1).order, checkpoint_.training.orders[1].order);
   EXPECT_EQ(training.orders.at(1).updates_at_writing, 650);
-  EXPECT_EQ(training.versions.at(1).kind, NetworkKind::kTarget);
+  EXPECT_EQ(training.versions.at(1).version.kind, NetworkKind::kTarget);
   EXPECT_TRUE(*training.versions.at(1).parameters == Parameters(2));
   EXPECT_TRUE(training.current == Parameters(3));
   EXPECT_TRUE(training.target == Parameters(4));

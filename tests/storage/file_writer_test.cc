@@ -6,8 +6,8 @@
 
 #include <condition_variable>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {

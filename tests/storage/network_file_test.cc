@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {
@@ -16,7 +16,8 @@ class NetworkFile : public ::testing::Test {
         path_(directory_ / "best.network"),
         experiment_(Experiment::Parse("agent { hidden_layers: [9] }", "a test")) {
     std::filesystem::create_directories(directory_);
-    WriteNetworkFile(path_, {experiment_, 4, 400, InitialParameters(experiment_.network_shape(), 2)});
+    WriteFileAtomically(path_, SerializeNetworkFile(
+                                   {experiment_, 4, 400, InitialParameters(experiment_.network_shape(), 2)}));
   }
   ~NetworkFile() override { std::filesystem::remove_all(directory_); }
 

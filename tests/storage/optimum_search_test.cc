@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/training/literal_run.h"
+#include "tests/worlds/table_one.h"
 
 namespace fresco {
 namespace {
@@ -20,7 +21,7 @@ class OptimumSearchTest : public ::testing::Test {
 
 /// Far more than a test would wait for.
 World HardWorld() {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.slots = 200;
   scenario.coverage_radius_m = 150;
   scenario.initial_energy_j = 50'000;

@@ -5,8 +5,8 @@
 
 #include <set>
 
-#include "core/atomic_file.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "storage/network_file.h"
 #include "tests/training/literal_run.h"
 

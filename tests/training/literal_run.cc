@@ -45,12 +45,12 @@ OrderResult ResultOf(int64_t order_index, const Episode& episode) {
 RunResult RunInOneLoop(const Experiment& experiment) {
   const World world(experiment.scenario());
   std::deque<Order> orders;
-  std::map<std::pair<NetworkKind, int32_t>, std::shared_ptr<const Vector>> versions;
+  std::map<NetworkVersion, std::shared_ptr<const Vector>> versions;
   RunResult result;
   TrainerOutput output;
   output.order = [&](const Order& order) { orders.push_back(order); };
-  output.version = [&](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
-    versions[{kind, version}] = std::move(parameters);
+  output.version = [&](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+    versions[version] = std::move(parameters);
   };
   output.evaluation = [&](const Evaluation&) { ++result.evaluations; };
   Trainer trainer(experiment, world, output);

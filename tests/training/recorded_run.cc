@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/check.h"
+#include "core/error.h"
 
 namespace fresco {
 
@@ -20,9 +20,9 @@ RecordedRun::RecordedRun(const Settings& settings)
 TrainerOutput RecordedRun::Output() {
   TrainerOutput output;
   output.order = [this](const Order& order) { orders.push_back(order); };
-  output.version = [this](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
-    auto& versions = kind == NetworkKind::kCurrent ? current_versions : target_versions;
-    EXPECT_EQ(version, static_cast<int32_t>(versions.size())) << "versions come by their numbers";
+  output.version = [this](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+    auto& versions = version.kind == NetworkKind::kCurrent ? current_versions : target_versions;
+    EXPECT_EQ(version.number, static_cast<int32_t>(versions.size())) << "versions come by their numbers";
     versions.push_back(std::move(parameters));
   };
   output.evaluation = [this](const Evaluation& evaluation) { evaluations.push_back(evaluation); };

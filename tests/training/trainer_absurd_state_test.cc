@@ -100,7 +100,7 @@ class AbsurdState : public ::testing::Test {
         return;
       default:
         return Change(
-            state.versions[stream_.NextBelow(static_cast<uint32_t>(state.versions.size()))].version);
+            state.versions[stream_.NextBelow(static_cast<uint32_t>(state.versions.size()))].version.number);
     }
   }
 
@@ -140,7 +140,7 @@ TEST_F(AbsurdState, IsRefusedOrGoneOnWith) {
     std::vector<Order> orders;
     Trainer trainer(whole_.experiment, whole_.world,
                     {[&](const Order& order) { orders.push_back(order); },
-                     [](NetworkKind, int32_t, const std::shared_ptr<const Vector>&) {},
+                     [](NetworkVersion, const std::shared_ptr<const Vector>&) {},
                      [](const Evaluation&) {},
                      {}});
     try {

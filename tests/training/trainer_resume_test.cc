@@ -19,8 +19,8 @@ struct Resumed {
   Resumed(const RecordedRun& run, const TrainingState& state)
       : trainer(run.experiment, run.world,
                 {[this](const Order& order) { orders.push_back(order); },
-                 [this](NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
-                   versions[{kind, version}] = std::move(parameters);
+                 [this](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+                   versions[version] = std::move(parameters);
                  },
                  [this](const Evaluation&) { ++evaluations; },
                  {}}) {
@@ -29,7 +29,7 @@ struct Resumed {
   }
 
   std::vector<Order> orders;
-  std::map<std::pair<NetworkKind, int32_t>, std::shared_ptr<const Vector>> versions;
+  std::map<NetworkVersion, std::shared_ptr<const Vector>> versions;
   int evaluations = 0;
   size_t orders_at_resume = 0;
   Trainer trainer;

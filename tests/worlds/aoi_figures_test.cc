@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/network_input.h"
 
@@ -19,7 +20,7 @@ Episode FlyRandomly(const World& world, uint32_t index, bool safe) {
 }
 
 TEST(AoiFigures, AreThoseWorkedByHand) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 2;
   scenario.slots = 4;
   scenario.start = {0, 0};
@@ -54,7 +55,7 @@ TEST(AoiFigures, HaveTheReturnAsObjective) {
 }
 
 TEST(AoiFigures, OfAnEarlyEndAreThoseWithoutAnyFurtherCollection) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 3;
   scenario.slots = 6;
   scenario.start = scenario.stop = {0, 0};

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/aoi_figures.h"
 
@@ -14,7 +15,7 @@ constexpr BaselineKind kKinds[] = {BaselineKind::kAoi, BaselineKind::kDistance};
 
 // One row of seven cells, sensors over some of them, each covered from its own cell only.
 Scenario RowScenario(int slots, int home_column, const std::vector<int>& sensor_columns) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = 7;
   scenario.rows = 1;
   scenario.slots = slots;
@@ -54,7 +55,7 @@ TEST(DistanceBaseline, FliesInRoundsToTheNearestSensor) {
 }
 
 TEST(Baselines, FlyAlongTheLongerAxisAndColumnsFirst) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 5;
   scenario.slots = 30;
   scenario.start = scenario.stop = {0, 0};

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 
 namespace fresco {
@@ -15,7 +16,7 @@ using testing::ElementsAre;
 // 3 x 3 cells, T = 6, from (0, 0) to (2, 0); sensor 1 over (0, 0), sensor 2 over (2, 1) with three
 // times its weight, each covering its cell and the four beside it.
 Scenario SmallScenario() {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 3;
   scenario.slots = 6;
   scenario.start = {0, 0};

@@ -7,13 +7,14 @@
 #include <functional>
 #include <limits>
 
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 
 namespace fresco {
 namespace {
 
 Scenario FiveByFive() {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 5;
   scenario.slots = 14;
   scenario.start = {0, 0};

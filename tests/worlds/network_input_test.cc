@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/environment.h"
 
@@ -30,7 +31,7 @@ TEST(NetworkInput, IsTheStateScaledToOne) {
 }
 
 TEST(NetworkInput, IsZeroAlongAnAxisOfOneCell) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = 1;
   scenario.rows = 1;
   scenario.start = scenario.stop = {0, 0};

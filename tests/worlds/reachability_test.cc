@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "tests/worlds/literal_model.h"
+#include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/environment.h"
 
@@ -139,7 +140,7 @@ TEST(Reachability, ExactlyEnoughEnergyIsEnough) {
 }
 
 TEST(Reachability, OnASingleCellAllSlackIsHovered) {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = scenario.rows = 1;
   scenario.start = scenario.stop = {0, 0};
   scenario.slots = 5;

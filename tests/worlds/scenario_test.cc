@@ -1,11 +1,111 @@
-#include "worlds/uav/scenario.h"
+// What World refuses, and in which words; sensors at random places.
+#include "worlds/uav/world.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <string>
+
+#include "core/error.h"
+#include "tests/worlds/test_scenarios.h"
 
 namespace fresco {
 namespace {
+
+using testing::HasSubstr;
+
+std::string Refusal(const std::function<void(Scenario*)>& change) {
+  Scenario scenario = TableOneScenario();
+  change(&scenario);
+  try {
+    World world(scenario);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ScenarioCheck, AcceptsTableOne) {
+  EXPECT_EQ(Refusal([](Scenario*) {}), "accepted");
+}
+
+TEST(ScenarioCheck, WantsStartAndStopOnTheGrid) {
+  EXPECT_EQ(Refusal([](Scenario* scenario) {
+              scenario->start = {20, 0};
+            }),
+            "scenario.start.column: 20 is out of range; allowed: 0 to 19");
+  EXPECT_EQ(Refusal([](Scenario* scenario) {
+              scenario->stop = {3, -1};
+            }),
+            "scenario.stop.row: -1 is out of range; allowed: 0 to 19");
+}
+
+TEST(ScenarioCheck, WantsOneToAsManySensorsAsFitAFrame) {
+  EXPECT_EQ(Refusal([](Scenario* scenario) { scenario->sensors.clear(); }),
+            "scenario.sensor: a count of 0 is out of range; allowed: 1 to 250");
+  EXPECT_EQ(Refusal([](Scenario* scenario) { scenario->sensors.resize(251); }),
+            "scenario.sensor: a count of 251 is out of range; allowed: 1 to 250");
+}
+
+TEST(ScenarioCheck, WantsAPositiveSumOfWeights) {
+  const auto weightless = [](Scenario* scenario) {
+    for (Sensor& sensor : scenario->sensors) {
+      sensor.weight = 0;
+    }
+  };
+  EXPECT_THAT(Refusal(weightless), HasSubstr("scenario.sensor: the weights sum to 0"));
+  EXPECT_EQ(Refusal([](Scenario* scenario) { scenario->sensors[0].weight = 0; }), "accepted");
+}
+
+TEST(ScenarioCheck, WantsASpeedOfOneCellASlot) {
+  const std::string refusal = Refusal([](Scenario* scenario) { scenario->speed_mps = 20; });
+  EXPECT_THAT(refusal, HasSubstr("scenario.speed_mps: 20"));
+  EXPECT_THAT(refusal, HasSubstr("scenario.slot_s: 1"));
+  EXPECT_THAT(refusal, HasSubstr("scenario.grid.cell_m is 25"));
+  const auto tenths = [](Scenario* scenario) {
+    scenario->speed_mps = 3;
+    scenario->slot_s = 0.1;
+    scenario->cell_m = 0.3;  // 3 * 0.1 is not 0.3 in double
+    scenario->radio.update_bits = 1e5;
+  };
+  EXPECT_EQ(Refusal(tenths), "accepted");
+}
+
+TEST(ScenarioCheck, SaysByHowMuchTheSlotsFallShort) {
+  const std::string refusal = Refusal([](Scenario* scenario) { scenario->slots = 15; });
+  EXPECT_EQ(refusal,
+            "scenario.slots: 15 is out of range: scenario.stop is 19 moves from scenario.start and there is "
+            "time for 14, 5 too few; allowed: at least 20");
+  EXPECT_EQ(Refusal([](Scenario* scenario) { scenario->slots = 20; }), "accepted");
+}
+
+// 70 slots, 19 cells: 69 * 112.8758628 J = 7788.43 J, all flown.
+TEST(ScenarioCheck, SaysByHowMuchTheEnergyFallsShort) {
+  const std::string refusal = Refusal([](Scenario* scenario) { scenario->initial_energy_j = 7000; });
+  EXPECT_THAT(refusal, HasSubstr("scenario.initial_energy_j: 7000 is out of range"));
+  EXPECT_THAT(refusal, HasSubstr("takes 7788.43 J, 788.435 J more"));
+  EXPECT_EQ(Refusal([](Scenario* scenario) { scenario->initial_energy_j = 7789; }), "accepted");
+}
+
+// 69 slots leave an odd slack of 49, which takes one hover: 67 * 112.876 + 219.82 = 7782.50 J.
+TEST(ScenarioCheck, CountsTheHoverOfAnOddSlack) {
+  const auto odd = [](double energy_j) {
+    return [=](Scenario* scenario) {
+      scenario->slots = 69;
+      scenario->initial_energy_j = energy_j;
+    };
+  };
+  EXPECT_THAT(Refusal(odd(7750)), HasSubstr("scenario.initial_energy_j: 7750 is out of range"));
+  EXPECT_EQ(Refusal(odd(7783)), "accepted");
+}
+
+TEST(ScenarioCheck, RefusesAnUpdateThatNoSignalCouldCarry) {
+  EXPECT_THAT(Refusal([](Scenario* scenario) { scenario->radio.update_bits = 1e9; }),
+              HasSubstr("bit/s/Hz; allowed: at most 100"));
+}
 
 TEST(RandomSensors, LieWithinTheAreaOfTheGridAndFillIt) {
   const std::vector<Sensor> sensors = RandomSensors(20, 10, 25, 2000, 3);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "tests/worlds/table_one.h"
 
 namespace fresco {
 namespace {
@@ -25,7 +26,7 @@ int Between(RandomStream* stream, int low, int high) {
 }
 
 Scenario TableOneScenario() {
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.sensors = {{200, 175, 1}, {25, 100, 1}, {450, 475, 1}};
   return scenario;
 }
@@ -36,7 +37,7 @@ Rotor LiteratureRotor() {
 
 Scenario RandomScenario(uint32_t index) {
   RandomStream stream = TestStream(1, index);
-  Scenario scenario;
+  Scenario scenario = TableOne();
   scenario.columns = Between(&stream, 1, 5);
   scenario.rows = Between(&stream, 1, 5);
   scenario.start = {Between(&stream, 0, scenario.columns - 1), Between(&stream, 0, scenario.rows - 1)};
@@ -51,7 +52,7 @@ Scenario RandomScenario(uint32_t index) {
   }
   scenario.sensors[0].weight = 0.5;
   scenario.coverage_radius_m = 60 * stream.NextUniform();
-  scenario.rotor = Between(&stream, 0, 1) == 0 ? Rotor{} : LiteratureRotor();
+  scenario.rotor = Between(&stream, 0, 1) == 0 ? TableOne().rotor : LiteratureRotor();
   scenario.reward = {stream.NextUniform(), 2 * stream.NextUniform(), 3 * stream.NextUniform()};
   if (Between(&stream, 0, 3) == 0) {
     scenario.maximum_aoi = Between(&stream, 1, scenario.slots);

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/uav/radio.h"
+#include "worlds/uav/physics.h"
 
 namespace fresco {
 namespace {

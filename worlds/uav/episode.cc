@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/memory_need.h"
+#include "core/memory.h"
 
 namespace fresco {
 namespace {
@@ -35,8 +35,8 @@ void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed) {
 
 int64_t LongestEpisodeBytes(const World& world) {
   const int64_t transitions = world.maximum_transitions();
-  const auto state_bytes =
-      static_cast<int64_t>(sizeof(State)) + HeapBytes(world.sensors() * static_cast<int64_t>(sizeof(int16_t)));
+  const auto state_bytes = static_cast<int64_t>(sizeof(State)) +
+                           HeapBytes(world.sensors() * static_cast<int64_t>(sizeof(int16_t)));
   const auto transition_bytes = static_cast<int64_t>(sizeof(int16_t) + sizeof(float)) + MaskSize(world);
   return static_cast<int64_t>(sizeof(Episode)) + (transitions + 1) * state_bytes +
          transitions * transition_bytes;

@@ -1,6 +1,6 @@
 // What was flown: the record of one episode, and the one loop that records it. Everything that flies (the
-// actor's flyer, baselines, the planner, the learner's check) records in this way. Deterministic; no I/O. Only
-// one thread at a time may use an object.
+// actor's flyer, baselines, the planner, the learner's check) records in this way. Deterministic; no I/O.
+// Only one thread at a time may use an object.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,10 @@ namespace fresco {
 /// Consecutive transitions of one episode; usually all of them. Transition i takes actions[i] in states[i],
 /// earns rewards[i] and leads to states[i + 1].
 struct Episode {
-  Outcome outcome = Outcome::kFlying;  ///< after the last transition; other than kFlying: that one is terminal
-  std::vector<State> states;           ///< transitions + 1
-  std::vector<int16_t> actions;        ///< indices of actions (World::ActionIndex)
+  Outcome outcome =
+      Outcome::kFlying;          ///< after the last transition; other than kFlying: that one is terminal
+  std::vector<State> states;     ///< transitions + 1
+  std::vector<int16_t> actions;  ///< indices of actions (World::ActionIndex)
   std::vector<float> rewards;
   std::vector<uint8_t> next_masks;  ///< MaskSize bytes for each transition, bit a % 8 of byte a / 8
 

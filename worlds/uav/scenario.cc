@@ -1,6 +1,6 @@
 #include "worlds/uav/scenario.h"
 
-#include "core/check.h"
+#include "core/error.h"
 #include "core/random.h"
 
 namespace fresco {

@@ -1,5 +1,5 @@
-// A scenario defines the world of one field of sensors, in SI units. Plain values, which World (world.h)
-// checks. The defaults are the paper's Table I; scenario_check.cc has the ranges.
+// A scenario defines the world of one field of sensors, in SI units. Plain values. World (world.h) checks
+// what depends on several of them; msgs/proto/experiment.proto has the range and the default of each.
 #pragma once
 
 #include <cstdint>
@@ -25,48 +25,48 @@ struct Sensor {
   double weight = 1;  ///< importance; theta_n = weight_n / sum of weights
 };
 
-/// Table I, channel part.
+/// The channel.
 struct Radio {
-  double bandwidth_hz = 1e6;   ///< B
-  double update_bits = 5e6;    ///< M, bits of one status update
-  double noise_dbm = -100;     ///< sigma^2, noise power
-  double gain_at_1m_db = -60;  ///< beta_0, channel gain at one metre
-  double altitude_m = 120;     ///< h, altitude of the UAV
+  double bandwidth_hz = 0;   ///< B
+  double update_bits = 0;    ///< M, bits of one status update
+  double noise_dbm = 0;      ///< sigma^2, noise power
+  double gain_at_1m_db = 0;  ///< beta_0, channel gain at one metre
+  double altitude_m = 0;     ///< h, altitude of the UAV
 };
 
-/// Table I, rotor part: the parameters of PropulsionPower (rotor.h).
+/// The rotor: the parameters of PropulsionPower (physics.h).
 struct Rotor {
-  double blade_profile_power_w = 99.66;
-  double induced_power_w = 120.16;
-  double tip_speed_mps = 120;
-  double induced_velocity_mps = 0.002;
-  double drag_ratio = 0.48;
-  double air_density_kgpm3 = 1.225;
-  double solidity = 0.0001;
-  double disk_area_m2 = 0.5;
+  double blade_profile_power_w = 0;
+  double induced_power_w = 0;
+  double tip_speed_mps = 0;
+  double induced_velocity_mps = 0;
+  double drag_ratio = 0;
+  double air_density_kgpm3 = 0;
+  double solidity = 0;
+  double disk_area_m2 = 0;
 };
 
 /// The constants of eq. (reward), in which AoI counts with weights theta_n that sum to one.
 struct Reward {
-  double k1 = 1;  ///< penalty if the stop can't be reached in time, phi < 0
-  double k2 = 1;  ///< penalty if the energy does not last to the stop, Delta < 0
-  double k3 = 1;  ///< bonus for arriving
+  double k1 = 0;  ///< penalty if the stop can't be reached in time, phi < 0
+  double k2 = 0;  ///< penalty if the energy does not last to the stop, Delta < 0
+  double k3 = 0;  ///< bonus for arriving
 };
 
 struct Scenario {
-  int columns = 20;
-  int rows = 20;
-  double cell_m = 25;  ///< side of a cell
-  int slots = 70;      ///< T, slots of a flight
-  double slot_s = 1;   ///< tau, length of a slot
-  Cell start{10, 0};   ///< cell over which every flight begins
-  Cell stop{10, 19};   ///< cell over which it has to end
+  int columns = 0;
+  int rows = 0;
+  double cell_m = 0;  ///< side of a cell
+  int slots = 0;      ///< T, slots of a flight
+  double slot_s = 0;  ///< tau, length of a slot
+  Cell start;         ///< cell over which every flight begins
+  Cell stop;          ///< cell over which it has to end
   std::vector<Sensor> sensors;
-  double coverage_radius_m = 100;   ///< R
-  double initial_energy_j = 22000;  ///< E_max, energy on board at the start
+  double coverage_radius_m = 0;  ///< R
+  double initial_energy_j = 0;   ///< E_max, energy on board at the start
   Radio radio;
   Rotor rotor;
-  double speed_mps = 25;  ///< V
+  double speed_mps = 0;  ///< V
   Reward reward;
   std::optional<int> maximum_aoi;  ///< delta_max, AoI grows no further, slots; none: no limit
 };

@@ -5,18 +5,91 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 #include <utility>
 
-#include "core/check.h"
 #include "core/error.h"
-#include "worlds/uav/rotor.h"
-#include "worlds/uav/scenario_check.h"
+#include "worlds/uav/physics.h"
 
 namespace fresco {
 namespace {
 
+// The largest product of cells and sensors. For each pair, World holds one byte and NetworkInput up to eight.
+// An actor receives its scenario from the bus, so no scenario may take too much memory.
+constexpr int64_t kMaximumCellsTimesSensors = 10'000'000;
+// The largest energy of a slot, joules. It keeps energy margins finite as the floats that messages carry.
+constexpr double kMaximumEnergyJ = 1e12;
+// How far speed_mps * slot_s may differ from cell_m, since products of decimal fractions are rounded.
+constexpr double kRelativeTolerance = 1e-9;
+
+void RequireWithin(const std::string& path, double value, double low, double high) {
+  if (!(value >= low && value <= high)) {
+    throw UsageError(fmt::format("{}: {} is out of range; allowed: {} to {}", path, value, low, high));
+  }
+}
+
+void CheckCell(const std::string& path, Cell cell, const Scenario& scenario) {
+  RequireWithin(path + ".column", cell.column, 0, scenario.columns - 1);
+  RequireWithin(path + ".row", cell.row, 0, scenario.rows - 1);
+}
+
+void CheckSensors(const std::vector<Sensor>& sensors) {
+  constexpr double kSmallestSum = 1e-6;
+  if (sensors.empty() || sensors.size() > kMaximumSensors) {
+    throw UsageError(fmt::format("scenario.sensor: a count of {} is out of range; allowed: 1 to {}",
+                                 sensors.size(), kMaximumSensors));
+  }
+  double total_weight = 0;
+  for (const Sensor& sensor : sensors) {
+    total_weight += sensor.weight;
+  }
+  if (!(total_weight >= kSmallestSum)) {
+    throw UsageError(fmt::format("scenario.sensor: the weights sum to {}; allowed: a sum of at least {}",
+                                 total_weight, kSmallestSum));
+  }
+}
+
+void CheckSize(const Scenario& scenario) {
+  const auto sensors = static_cast<int64_t>(scenario.sensors.size());
+  if (int64_t{scenario.columns} * scenario.rows * sensors > kMaximumCellsTimesSensors) {
+    throw UsageError(
+        fmt::format("scenario.grid: {} x {} cells and {} sensors are too many; allowed: a product of "
+                    "at most {}",
+                    scenario.columns, scenario.rows, sensors, kMaximumCellsTimesSensors));
+  }
+}
+
+// "In each time slot, the UAV could hover over a certain grid or fly across one grid at a constant
+// speed V" (section II).
+void CheckSpeed(const Scenario& scenario) {
+  const double flown_m = scenario.speed_mps * scenario.slot_s;
+  if (std::abs(flown_m - scenario.cell_m) > kRelativeTolerance * scenario.cell_m) {
+    throw UsageError(
+        fmt::format("scenario.speed_mps: {} for scenario.slot_s: {} makes {} m a slot, but the UAV flies one "
+                    "cell a slot and scenario.grid.cell_m is {}; allowed: speed_mps * slot_s = cell_m",
+                    scenario.speed_mps, scenario.slot_s, flown_m, scenario.cell_m));
+  }
+}
+
+void CheckStopIsReachableInTime(const Scenario& scenario) {
+  const int distance = std::abs(scenario.start.column - scenario.stop.column) +
+                       std::abs(scenario.start.row - scenario.stop.row);
+  if (distance > scenario.slots - 1) {
+    throw UsageError(fmt::format(
+        "scenario.slots: {} is out of range: scenario.stop is {} moves from scenario.start and there is time "
+        "for {}, {} too few; allowed: at least {}",
+        scenario.slots, distance, scenario.slots - 1, distance - scenario.slots + 1, distance + 1));
+  }
+}
+
 Scenario Checked(Scenario scenario) {
-  CheckScenario(scenario);
+  CheckCell("scenario.start", scenario.start, scenario);
+  CheckCell("scenario.stop", scenario.stop, scenario);
+  CheckSensors(scenario.sensors);
+  CheckSize(scenario);
+  CheckRadio(scenario.radio, scenario.slot_s);
+  CheckSpeed(scenario);
+  CheckStopIsReachableInTime(scenario);
   return scenario;
 }
 
@@ -152,6 +225,28 @@ Move MoveTowards(Cell from, Cell to) {
     return columns > 0 ? Move::kEast : Move::kWest;
   }
   return rows > 0 ? Move::kNorth : Move::kSouth;
+}
+
+double EnergyMargin(const World& world, Cell cell, int slots_left, double remaining_j) {
+  if (world.flying_energy_j() <= world.hovering_energy_j()) {
+    return remaining_j - slots_left * world.flying_energy_j();
+  }
+  const int flown = std::min(world.DistanceToStop(cell), slots_left);
+  return remaining_j - flown * world.flying_energy_j() - (slots_left - flown) * world.hovering_energy_j();
+}
+
+double CompletionEnergy(const World& world, Cell cell, int slots_left) {
+  const int slack = slots_left - world.DistanceToStop(cell);
+  FRESCO_CHECK(slack >= 0);
+  const bool hovering_costs_more = world.hovering_energy_j() > world.flying_energy_j();
+  const bool single_cell = world.scenario().columns == 1 && world.scenario().rows == 1;
+  // Flying to a neighbouring cell and back takes two slots, so it uses up an even number of spare slots.
+  const int hovers = hovering_costs_more && !single_cell ? slack % 2 : slack;
+  return (slots_left - hovers) * world.flying_energy_j() + hovers * world.hovering_energy_j();
+}
+
+bool CanReachStop(const World& world, Cell cell, int slots_left, double remaining_j) {
+  return world.DistanceToStop(cell) <= slots_left && remaining_j >= CompletionEnergy(world, cell, slots_left);
 }
 
 }  // namespace fresco

@@ -34,8 +34,11 @@ struct State {
 
 class World {
  public:
-  /// Throws UsageError if a value is out of range (scenario_check.h) or the stop can't be reached in time and
-  /// energy. The error names the scenario's field, the value and what is allowed.
+  /// Every value must be in its range (msgs/proto/experiment.proto; Experiment checks it). Throws UsageError
+  /// if values do not fit together: a start off the grid, weights that sum to 0, more cells and sensors than
+  /// memory allows, a speed that is not one cell a slot, an update that no signal could carry, or a stop that
+  /// can't be reached in time and energy. The error names the scenario's field, the value and what is
+  /// allowed.
   explicit World(Scenario scenario);
 
   /// The scenario as given; only initial_energy_j is rounded, see flying_energy_j().

@@ -1,0 +1,185 @@
+#include "actors/served_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/identifier.h"
+#include "msgs/protocol_times.h"
+#include "msgs/versions_in_flight.h"
+
+namespace fresco {
+namespace {
+
+constexpr int64_t kLargestIndex = int64_t{1} << 32;
+constexpr size_t kLongestList = 32;
+
+std::string Names(const std::vector<chunk_range_t>& ranges) {
+  std::string text;
+  for (const chunk_range_t& range : ranges) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", Name(VersionOf(range).kind), range.version);
+  }
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+ServedRun::ServedRun(Experiment experiment, RunIdentity identity, int capacity, SendResult send)
+    : experiment_(std::move(experiment)),
+      world_(experiment_.scenario()),
+      identity_(identity),
+      capacity_(capacity),
+      send_(std::move(send)),
+      store_(experiment_.network_shape().parameter_count()),
+      flyer_(world_, experiment_, capacity) {}
+
+bool ServedRun::Hear(int64_t utime, int64_t now_us) {
+  if (utime < newest_utime_ - kStaleUs) {
+    return false;
+  }
+  newest_utime_ = std::max(newest_utime_, utime);
+  last_heard_us_ = now_us;
+  return true;
+}
+
+int ServedRun::HandleOrders(const orders_t& message, int64_t actor_id, int64_t now_us) {
+  if (message.committed_orders < 0 || message.committed_orders > kLargestIndex) {
+    return 1;
+  }
+  committed_ = message.committed_orders;
+  KeepWindow();
+  int contradictions = 0;
+  for (const order_t& wire : message.orders) {
+    Order order;
+    if (wire.actor_id != actor_id || (wire.index >= 0 && wire.index < committed_)) {
+      continue;
+    }
+    if (FromWire(wire, order) && order.index < WindowEnd()) {
+      Accept(order, now_us);
+    } else {
+      ++contradictions;
+    }
+  }
+  return contradictions;
+}
+
+/// The newest announcement of an order counts: what was flown for another order of that index, by a
+/// learner that is no more or a liar, is flown anew.
+void ServedRun::Accept(const Order& order, int64_t now_us) {
+  const auto flown = flown_.find(order.index);
+  if (flown != flown_.end() && flown->second.order == order) {
+    if (now_us - flown->second.sent_us >= kResendPeriodUs) {
+      flown->second.sent_us = now_us;
+      send_(flown->second.result, true);
+    }
+  } else if (!flyer_.IsFlying(order.index)) {
+    waiting_.insert_or_assign(order.index, order);
+  }
+}
+
+/// The index behind the last order that the learner can have written by now.
+int64_t ServedRun::WindowEnd() const {
+  return committed_ + MaximumOrdersInFlight(experiment_.schedule().window());
+}
+
+/// Bounds memory, also if the window has gone back because the learner was resumed.
+void ServedRun::KeepWindow() {
+  const auto keep = [this](auto& by_index) {
+    by_index.erase(by_index.begin(), by_index.lower_bound(committed_));
+    by_index.erase(by_index.lower_bound(WindowEnd()), by_index.end());
+  };
+  keep(waiting_);
+  keep(flown_);
+}
+
+void ServedRun::Step(int64_t now_us) {
+  StartFlights();
+  flyer_.Step([&](const Order& order, OrderResult& result) {
+    send_(result, false);
+    flown_.insert_or_assign(order.index, Flown{order, std::move(result), now_us});
+  });
+}
+
+void ServedRun::StartFlights() {
+  std::set<NetworkVersion> wanted;
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    const auto [current, target] = VersionsOf(it->second);
+    auto current_parameters = store_.Find(current);
+    auto target_parameters = store_.Find(target);
+    wanted.insert({current, target});
+    if (flyer_.HasRoom() && current_parameters != nullptr && target_parameters != nullptr) {
+      flyer_.Start(it->second, std::move(current_parameters), std::move(target_parameters));
+      it = waiting_.erase(it);
+    } else {
+      ++it;
+    }
+  }
+  store_.SetWanted(std::move(wanted));
+}
+
+int64_t ServedRun::OldestOpenOrder() const {
+  std::vector<int64_t> open = flyer_.OrderIndices();
+  std::erase_if(open, [this](int64_t index) { return index < committed_; });
+  if (!waiting_.empty()) {
+    open.push_back(waiting_.begin()->first);
+  }
+  return open.empty() ? -1 : *std::min_element(open.begin(), open.end());
+}
+
+void ServedRun::WriteTo(actor_status_t& status, int64_t now_us) {
+  status.capacity = capacity_;
+  status.open_orders = static_cast<int32_t>(waiting_.size()) + flyer_.open_flights();
+  status.oldest_open_order = OldestOpenOrder();
+  status.held = store_.HeldVersions();
+  status.missing = store_.MissingRanges(now_us);
+  status.held_count = static_cast<int32_t>(status.held.size());
+  status.missing_count = static_cast<int32_t>(status.missing.size());
+}
+
+std::string ServedRun::WaitsFor(const Order& order) const {
+  std::string text;
+  for (const NetworkVersion& version : VersionsOf(order)) {
+    if (const int missing = store_.MissingChunks(version); missing > 0) {
+      text += fmt::format("{}{} network {} ({} chunks missing)", text.empty() ? "" : " and ",
+                          Name(version.kind), version.number, missing);
+    }
+  }
+  return text.empty() ? "room" : text;
+}
+
+std::string ServedRun::StateText(int64_t now_us) const {
+  std::string text =
+      fmt::format("\n  run {}, last heard of {:.1f} s ago\n  {} orders flying, {} flown and kept",
+                  IdentifierText(identity_.run_id), static_cast<double>(now_us - last_heard_us_) * 1e-6,
+                  flyer_.open_flights(), flown_.size());
+  size_t lines = 0;
+  for (const auto& [index, order] : waiting_) {
+    if (++lines > kLongestList) {
+      text += fmt::format("\n  and {} orders more", waiting_.size() - kLongestList);
+      break;
+    }
+    text += fmt::format("\n  order {} waits for {}", index, WaitsFor(order));
+  }
+  return text + "\n  networks held: " + Names(store_.HeldVersions());
+}
+
+MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
+  const World world(experiment.scenario());
+  const int64_t parameters = experiment.network_shape().parameter_count();
+  const int64_t orders = MaximumOrdersInFlight(experiment.schedule().window());
+  const VersionsInFlight versions = MostVersionsInFlight(experiment);
+  const int64_t wanted = std::min(orders, versions.current) + std::min(orders, versions.target);
+  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + LongestResultBytes(world);
+  return {"actor",
+          1,
+          {{"run.environments_per_actor", "its environments",
+            Flyer::BytesFor(world, experiment, capacity, std::min<int64_t>(capacity, orders))},
+           {"agent.hidden_layers", "the networks that it holds", NetworkStore::BytesFor(parameters, wanted)},
+           {"schedule.window", "the episodes of the orders in flight", orders * of_order},
+           {"scenario.grid", "the field", world.bytes()},
+           {"run.actors", "the program", kProgramBytes}}};
+}
+
+}  // namespace fresco

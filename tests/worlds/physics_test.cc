@@ -1,0 +1,75 @@
+#include "worlds/uav/physics.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "tests/worlds/literal_model.h"
+#include "tests/worlds/table_one.h"
+#include "tests/worlds/test_scenarios.h"
+
+namespace fresco {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Rotor, OfTableOneNeedsTwiceAsMuchForHovering) {
+  EXPECT_DOUBLE_EQ(PropulsionPower(TableOne().rotor, 0), 99.66 + 120.16);
+  EXPECT_NEAR(PropulsionPower(TableOne().rotor, 25), 112.876, 5e-4);
+}
+
+// 99.66 (1 + 3 * 625 / 14400) + 120.16 * 0.002 / 25 + 0.5 * 0.48 * 1.225 * 0.0001 * 0.5 * 15625.
+TEST(Rotor, KeepsTheInducedTermWhereThePrintedFormCancels) {
+  EXPECT_NEAR(PropulsionPower(TableOne().rotor, 25), 112.6365625 + 0.0096128 + 0.2296875, 1e-9);
+}
+
+TEST(Rotor, OfTheLiteratureNeedsMoreForFlying) {
+  EXPECT_NEAR(PropulsionPower(LiteratureRotor(), 0), 168.49, 1e-9);
+  EXPECT_NEAR(PropulsionPower(LiteratureRotor(), 25), 249, 1);
+}
+
+TEST(Rotor, AgreesWithThePrintedFormulaWhereThatIsStable) {
+  for (int speed = 0; speed <= 40; ++speed) {
+    EXPECT_NEAR(PropulsionPower(LiteratureRotor(), speed), LiteralPower(LiteratureRotor(), speed), 1e-9);
+  }
+}
+
+// (2^5 - 1) * 1e-13 W / 1e-6 * (100^2 + 120^2) m^2.
+TEST(Radio, NeedsThePowerOfTableOneForAHundredMetres) {
+  EXPECT_NEAR(TransmitPower(TableOne().radio, 1, 100), 31e-7 * 24400, 1e-12);
+  EXPECT_NEAR(TransmitPower(TableOne().radio, 1, 100), 0.07564, 1e-12);
+}
+
+TEST(Radio, RadiusIsTheInverseOfPower) {
+  for (const double radius_m : {0.0, 1.0, 25.0, 100.0, 1234.5}) {
+    EXPECT_NEAR(CoverageRadius(TableOne().radio, 1, TransmitPower(TableOne().radio, 1, radius_m)), radius_m,
+                1e-4);
+  }
+}
+
+TEST(Radio, HalfTheTimeForAnUpdateNeedsTheSquareOfTheSignal) {
+  const double ratio = TransmitPower(TableOne().radio, 0.5, 100) / TransmitPower(TableOne().radio, 1, 100);
+  EXPECT_NEAR(ratio, 1023.0 / 31.0, 1e-9);
+}
+
+TEST(Radio, RefusesAPowerThatDoesNotReachTheGround) {
+  try {
+    CoverageRadius(TableOne().radio, 1, 0.01);
+    FAIL() << "0.01 W was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+    EXPECT_THAT(error.what(), HasSubstr("scenario.transmit_power_w: 0.01 is out of range"));
+    EXPECT_THAT(error.what(), HasSubstr("0.0446"));
+  }
+}
+
+TEST(Radio, RefusesAnUpdateThatNoSignalCouldCarry) {
+  Radio radio = TableOne().radio;
+  radio.bandwidth_hz = 0;
+  EXPECT_THROW(TransmitPower(radio, 1, 100), Error);
+  EXPECT_THROW(CoverageRadius(radio, 1, 1), Error);
+  EXPECT_THROW(TransmitPower(TableOne().radio, 1e-3, 100), Error);  // 5000 bit/s/Hz
+}
+
+}  // namespace
+}  // namespace fresco
