@@ -19,24 +19,6 @@ int AllowedAction(const std::vector<uint8_t>& mask, uint32_t number) {
   FRESCO_CHECK(false);
 }
 
-/// The first allowed action of the largest value among those from `first` to before `end`.
-std::optional<int> BestAllowedAction(const Matrix& values, int column, const std::vector<uint8_t>& mask,
-                                     int first, int end) {
-  std::optional<int> best;
-  for (int action = first; action < end; ++action) {
-    if (mask[static_cast<size_t>(action)] != 0 && (!best || values(action, column) > values(*best, column))) {
-      best = action;
-    }
-  }
-  return best;
-}
-
-int GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) {
-  const std::optional<int> best = BestAllowedAction(values, column, mask, 0, static_cast<int>(mask.size()));
-  FRESCO_CHECK(best);
-  return *best;
-}
-
 }  // namespace
 
 Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)

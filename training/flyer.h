@@ -1,6 +1,6 @@
 // Flies orders: many environments side by side, epsilon-greedy, environments whose orders name the
 // same two versions sharing one forward pass. The episode of an order is a pure function of the
-// order and its networks; neither the company it flies in nor its place in the batch changes a bit.
+// order and its networks; neither the company it flies in nor its column in the batch changes a bit.
 // Not thread-safe.
 #pragma once
 
@@ -14,6 +14,7 @@
 #include "msgs/experiment.h"
 #include "msgs/order.h"
 #include "nn/mlp.h"
+#include "training/dqn.h"
 #include "worlds/uav/episode.h"
 #include "worlds/uav/network_input.h"
 

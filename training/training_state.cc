@@ -129,7 +129,7 @@ void Trainer::CheckOrders(const TrainingState& state) const {
                      expected, schedule.window(), training, evaluations));
 }
 
-/// Flies the episodes again and puts every transition at the place that it had.
+/// Flies the episodes again and puts every transition where it was.
 void Trainer::RefillReplay(const TrainingState& state) {
   const auto count = static_cast<int64_t>(state.actions.size());
   const int64_t kept = std::min<int64_t>(state.progress.transitions, experiment_.agent().replay_capacity());
