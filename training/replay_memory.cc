@@ -47,15 +47,15 @@ int64_t ReplayMemory::BytesFor(int inputs, int actions, int64_t capacity) {
 void ReplayMemory::Insert(const Transition& transition) {
   FRESCO_CHECK(static_cast<int64_t>(transition.observation.size()) == observations_.rows());
   FRESCO_CHECK(transition.next_mask.size() == mask_size_);
-  const auto place = static_cast<size_t>(next_);
+  const auto index = static_cast<size_t>(next_);
   std::copy(transition.observation.begin(), transition.observation.end(), observations_.col(next_).data());
   std::copy(transition.next_observation.begin(), transition.next_observation.end(),
             next_observations_.col(next_).data());
-  action_[place] = transition.action;
-  reward_[place] = transition.reward;
-  terminal_[place] = transition.terminal ? 1 : 0;
-  least_value_[place] = transition.least_value;
-  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + place * mask_size_);
+  action_[index] = transition.action;
+  reward_[index] = transition.reward;
+  terminal_[index] = transition.terminal ? 1 : 0;
+  least_value_[index] = transition.least_value;
+  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + index * mask_size_);
   next_ = (next_ + 1) % capacity_;
   size_ = std::min(size_ + 1, capacity_);
 }
@@ -67,11 +67,11 @@ void ReplayMemory::Sample(RandomStream& stream, MiniBatch& batch) const {
   }
 }
 
-void ReplayMemory::Copy(int64_t place, int column, MiniBatch& batch) const {
-  const auto from = static_cast<size_t>(place);
+void ReplayMemory::Copy(int64_t index, int column, MiniBatch& batch) const {
+  const auto from = static_cast<size_t>(index);
   const auto to = static_cast<size_t>(column);
-  batch.observations.col(column) = observations_.col(place);
-  batch.next_observations.col(column) = next_observations_.col(place);
+  batch.observations.col(column) = observations_.col(index);
+  batch.next_observations.col(column) = next_observations_.col(index);
   batch.actions[to] = action_[from];
   batch.rewards[to] = reward_[from];
   batch.terminal[to] = terminal_[from];
