@@ -58,8 +58,8 @@ class PlannerProblem {
   }
 
   /// A slot is dear if its move is of the kind that takes more energy: hovering in some scenarios, flying in
-  /// others. A flight's energy depends only on its number
-  /// of dear slots. energy_binds says whether the budget limits this number.
+  /// others. A flight's energy depends only on its number of dear slots. energy_binds says whether the budget
+  /// limits this number.
   bool energy_binds() const { return energy_binds_; }
   /// Whether a slot with this move is dear.
   bool IsDear(Move move) const { return (move == Move::kHover) == hovering_is_dearer_; }
