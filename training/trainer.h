@@ -94,7 +94,7 @@ class Trainer {
   Dqn dqn_;
   std::vector<float> observation_;
   std::vector<float> next_observation_;
-  std::vector<float> least_values_;  // returns of the episode being committed, by transition
+  std::vector<float> least_values_;  // lower bounds of Q*, by transition of the episode
   TrainerProgress progress_;
   int64_t training_orders_ = 0;       // training orders written so far
   std::deque<OrderInFlight> orders_;  // sorted by index, from progress_.committed_orders on
