@@ -48,15 +48,15 @@ int64_t ReplayMemory::BytesFor(int inputs, int actions, int64_t capacity) {
 void ReplayMemory::Insert(const Transition& transition) {
   FRESCO_CHECK(static_cast<int64_t>(transition.observation.size()) == observations_.rows());
   FRESCO_CHECK(transition.next_mask.size() == mask_size_);
-  const auto position = static_cast<size_t>(next_);
+  const auto index = static_cast<size_t>(next_);
   std::copy(transition.observation.begin(), transition.observation.end(), observations_.col(next_).data());
   std::copy(transition.next_observation.begin(), transition.next_observation.end(),
             next_observations_.col(next_).data());
-  action_[position] = transition.action;
-  reward_[position] = transition.reward;
-  terminal_[position] = transition.terminal ? 1 : 0;
-  least_value_[position] = transition.least_value;
-  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + position * mask_size_);
+  action_[index] = transition.action;
+  reward_[index] = transition.reward;
+  terminal_[index] = transition.terminal ? 1 : 0;
+  least_value_[index] = transition.least_value;
+  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + index * mask_size_);
   next_ = (next_ + 1) % capacity_;
   size_ = std::min(size_ + 1, capacity_);
 }
@@ -68,11 +68,11 @@ void ReplayMemory::Sample(RandomStream& stream, MiniBatch& batch) const {
   }
 }
 
-void ReplayMemory::Copy(int64_t position, int column, MiniBatch& batch) const {
-  const auto from = static_cast<size_t>(position);
+void ReplayMemory::Copy(int64_t index, int column, MiniBatch& batch) const {
+  const auto from = static_cast<size_t>(index);
   const auto to = static_cast<size_t>(column);
-  batch.observations.col(column) = observations_.col(position);
-  batch.next_observations.col(column) = next_observations_.col(position);
+  batch.observations.col(column) = observations_.col(index);
+  batch.next_observations.col(column) = next_observations_.col(index);
   batch.actions[to] = action_[from];
   batch.rewards[to] = reward_[from];
   batch.terminal[to] = terminal_[from];

@@ -59,8 +59,8 @@ class ReplayMemory {
   /// sizes.
   void Insert(const Transition& transition);
 
-  /// For a memory that is still empty: the next transition is inserted where it would be after
-  /// `transitions` (>= 0) earlier ones.
+  /// For a memory that is still empty: the next transition is inserted at the index of the ring that it would
+  /// have after `transitions` (>= 0) earlier ones.
   void BeginAt(int64_t transitions) { next_ = transitions % capacity_; }
 
   /// Transitions held, at most the capacity.
@@ -70,7 +70,7 @@ class ReplayMemory {
   void Sample(RandomStream& stream, MiniBatch& batch) const;
 
  private:
-  void Copy(int64_t position, int column, MiniBatch& batch) const;
+  void Copy(int64_t index, int column, MiniBatch& batch) const;
   static size_t MaskBytes(int actions) { return (static_cast<size_t>(actions) + 7) / 8; }
 
   int actions_;
@@ -104,7 +104,7 @@ class ActionHistory {
   /// Adds the action of the next transition; `last` says whether it ends its episode.
   void Add(int16_t action, bool last);
 
-  /// Returns the actions of whole episodes, oldest first, so that they contain the latest `capacity`
+  /// Returns the actions of complete episodes, oldest first, so that they contain the latest `capacity`
   /// transitions (or all, if there were fewer). The first episode may begin before these. The transition
   /// added last must have ended its episode.
   std::vector<int16_t> Actions() const;

@@ -133,7 +133,7 @@ TEST_F(TrainerResumeRefusal, NamesAGapInTheOrders) {
 
 TEST_F(TrainerResumeRefusal, NamesActionsThatAreNoEpisodes) {
   state_.actions.back() = 14;  // hovering far from the stop in the last slot
-  EXPECT_NE(Refusal().find("no whole episodes"), std::string::npos) << Refusal();
+  EXPECT_NE(Refusal().find("no complete episodes"), std::string::npos) << Refusal();
   state_.actions.resize(20);
   EXPECT_NE(Refusal().find("found 20"), std::string::npos) << Refusal();
 }
