@@ -69,9 +69,10 @@ endfunction()
 # Builds every test program that carries the label unit, and no more than that.
 add_custom_target(unit_tests)
 
-# fresco_test(name LABEL label SOURCES ... LIBRARIES ...): one gtest program, one CTest entry.
+# fresco_test(name LABEL label SOURCES ... LIBRARIES ...): one gtest program, one CTest entry. STARTS_FIRST: it takes
+# the longest, so CTest starts it before the others.
 function(fresco_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "STARTS_FIRST" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
   endif()
@@ -91,4 +92,7 @@ function(fresco_test name)
   endif()
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+  if(arg_STARTS_FIRST)
+    set_tests_properties(${name} PROPERTIES COST 100)
+  endif()
 endfunction()

@@ -127,7 +127,7 @@ TEST_F(RosterLate, TheHeadOfTheLineIsOrderedTwiceAndTheFirstResultCounts) {
 TEST_F(RosterLate, AnActorThatSaysThatItLivesAndSendsNoResultsGetsNoMoreThanAFewOrders) {
   std::map<int64_t, int64_t> sent;  // by actor
   Write(4);
-  for (int64_t ms = 0; ms < 20'000; ms += 2) {
+  for (int64_t ms = 0; ms < 5'000; ms += 2) {
     const int64_t now_us = kBeginUs + ms * 1000;
     for (const order_t& order : DueWith({1, 2}, now_us)) {
       ++sent[order.actor_id];
@@ -139,7 +139,7 @@ TEST_F(RosterLate, AnActorThatSaysThatItLivesAndSendsNoResultsGetsNoMoreThanAFew
       Write(1);
     }
   }
-  EXPECT_GT(ledger_.committed(), 10'000);  // two of four orders at a time, every 2 ms, would be 20,000
+  EXPECT_GT(ledger_.committed(), 2'500);  // two of four orders at a time, every 2 ms, would be 5,000
   EXPECT_LT(sent[2], 200);
 }
 

@@ -34,9 +34,9 @@ class FlyerActions : public ::testing::TestWithParam<ActionVariant> {
 
   /// Episodes of so many orders.
   std::vector<Episode> FlyMany(int orders, double epsilon) const {
-    std::vector<FlightPlan> plans;
-    for (int index = 0; index < orders; ++index) {
-      plans.push_back(Plan(index, epsilon));
+    std::vector<FlightPlan> plans(static_cast<size_t>(orders), Plan(0, epsilon));
+    for (size_t index = 0; index < plans.size(); ++index) {
+      plans[index].order = TrainOrder(static_cast<int64_t>(index), epsilon);
     }
     std::vector<Episode> episodes;
     for (auto& [index, result] : FlyTogether(world_, experiment_, 64, plans, 64)) {

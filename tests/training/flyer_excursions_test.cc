@@ -94,11 +94,14 @@ TEST_P(FlyerExcursions, LeadToEveryCellAlike) {
   // With epsilon 1 the first move is that of an excursion. From (0, 0), of the 25 cells, it is east to the 14
   // others with column >= row, north to the 10 with column < row, and a hover to (0, 0) itself.
   constexpr int kOrders = 4000;
+  std::vector<FlightPlan> plans(
+      kOrders, {TrainOrder(0, 1), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)});
+  for (size_t index = 0; index < plans.size(); ++index) {
+    plans[index].order = TrainOrder(static_cast<int64_t>(index), 1);
+  }
   std::array<int, kMoves> moves{};
-  for (int index = 0; index < kOrders; ++index) {
-    const FlightPlan plan{TrainOrder(index, 1), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)};
-    ++moves.at(
-        static_cast<size_t>(world.ActionAt(FlyAlone(world, experiment, plan).episode.actions[0]).move));
+  for (const auto& [index, result] : FlyTogether(world, experiment, 64, plans, 64)) {
+    ++moves.at(static_cast<size_t>(world.ActionAt(result.episode.actions[0]).move));
   }
   const auto expect_share = [&](Move move, double share) {
     EXPECT_NEAR(moves.at(static_cast<size_t>(move)), kOrders * share,
