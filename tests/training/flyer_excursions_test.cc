@@ -50,7 +50,7 @@ TEST_P(FlyerExcursions, FlyStraightToTheDrawnCellAndScheduleGreedily) {
   int flown_towards = 0;
   int cut_short = 0;
   for (int index = 0; index < 200; ++index) {
-    const FlightPlan plan{TrainOrder(index, 0.3), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)};
+    const FlightPlan plan = PlanOf(experiment, index, 0.3);
     const Episode episode = FlyAlone(world, experiment, plan).episode;
     const auto masks = MasksOf(world, experiment, episode);
     std::optional<Cell> waypoint;
@@ -96,9 +96,8 @@ TEST_P(FlyerExcursions, LeadToEveryCellAlike) {
   constexpr int kOrders = 4000;
   std::array<int, kMoves> moves{};
   for (int index = 0; index < kOrders; ++index) {
-    const FlightPlan plan{TrainOrder(index, 1), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)};
-    ++moves.at(
-        static_cast<size_t>(world.ActionAt(FlyAlone(world, experiment, plan).episode.actions[0]).move));
+    const Episode episode = FlyAlone(world, experiment, PlanOf(experiment, index, 1)).episode;
+    ++moves.at(static_cast<size_t>(world.ActionAt(episode.actions[0]).move));
   }
   const auto expect_share = [&](Move move, double share) {
     EXPECT_NEAR(moves.at(static_cast<size_t>(move)), kOrders * share,
@@ -114,8 +113,7 @@ TEST_P(FlyerExcursions, GiveTheSameBitsInAnyCompany) {
   const World world(experiment.scenario());
   std::vector<FlightPlan> plans;
   for (int index = 0; index < 40; ++index) {
-    plans.push_back(
-        {TrainOrder(index, (index % 5) / 4.0), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)});
+    plans.push_back(PlanOf(experiment, index, (index % 5) / 4.0));
   }
   for (const int per_slot : {1, 3, 40}) {
     const auto together = FlyTogether(world, experiment, 40, plans, per_slot);
@@ -130,7 +128,7 @@ TEST_P(FlyerExcursions, AreNoneWithEpsilonZero) {
   const Experiment without = SmallField(masks_);
   const World world(with.scenario());
   for (uint32_t network = 0; network < 20; ++network) {
-    const FlightPlan plan{TrainOrder(1, 0), SampleNetwork(with, network), SampleNetwork(with, network)};
+    const FlightPlan plan = PlanOf(with, 1, 0, network, network);
     EXPECT_TRUE(SameBits(FlyAlone(world, with, plan), FlyAlone(world, without, plan)));
   }
 }
