@@ -103,7 +103,6 @@ TEST(ConfigurationError, NamesTheRangeOfEveryValueOfTheScenario) {
 TEST(ConfigurationError, TakesNaNAndInfinityForOutOfRange) {
   EXPECT_THAT(Refusal("agent { discount: nan }"),
               HasSubstr("agent.discount: nan is out of range; allowed: 0 to 1"));
-  EXPECT_THAT(Refusal("scenario { slot_s: nan }"), HasSubstr("scenario.slot_s: nan is out of range"));
   EXPECT_THAT(Refusal("scenario { coverage_radius_m: nan }"), HasSubstr("scenario.coverage_radius_m: nan"));
   EXPECT_THAT(Refusal("scenario { initial_energy_j: inf }"), HasSubstr("scenario.initial_energy_j: inf"));
   EXPECT_THAT(Refusal("scenario { transmit_power_w: nan }"), HasSubstr("scenario.transmit_power_w: nan"));
