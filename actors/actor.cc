@@ -103,7 +103,7 @@ void Actor::Join(const run_t& message, const std::string& text) {
     RefuseIfTooLarge({ActorMemory(experiment, capacity)}, options_.available_memory());
     if (run_ != nullptr) {
       spdlog::warn(
-          "leaving run {}: its messages are not of now by this host's clock, those of another run are",
+          "leaving run {}: its messages are not current by this host's clock, those of another run are",
           IdentifierText(run_->identity().run_id));
     }
     run_ =

@@ -1,5 +1,5 @@
-// An actor: finds a run on the bus, serves it (actors/served_run.h), and tells the learner how it is. Stays
-// when a run is over and serves the next one. Everything happens on the one thread that calls Step.
+// An actor: finds a run on the bus, serves it (actors/served_run.h), and reports its status to the learner.
+// When a run is over, it serves the next one. Everything happens on the one thread that calls Step.
 #pragma once
 
 #include <cstdint>

@@ -65,8 +65,8 @@ int ServedRun::HandleOrders(const orders_t& message, int64_t actor_id, int64_t n
   return contradictions;
 }
 
-/// The newest announcement of an order counts: what was flown for another order of that index, by a
-/// learner that is no more or a liar, is flown anew.
+/// The newest announcement of an index counts. If another order of that index was flown (its message came
+/// from a learner that has ended, or was forged), the new one is flown.
 void ServedRun::Accept(const Order& order, int64_t now_us) {
   const auto flown = flown_.find(order.index);
   if (flown != flown_.end() && flown->second.order == order) {
@@ -79,12 +79,12 @@ void ServedRun::Accept(const Order& order, int64_t now_us) {
   }
 }
 
-/// The index behind the last order that the learner can have written by now.
+/// One more than the highest index that the learner can have written by now.
 int64_t ServedRun::WindowEnd() const {
   return committed_ + MaximumOrdersInFlight(experiment_.schedule().window());
 }
 
-/// Bounds memory, also if the window has gone back because the learner was resumed.
+/// Bounds memory, also if the window has moved back because the learner was resumed.
 void ServedRun::KeepWindow() {
   const auto keep = [this](auto& by_index) {
     by_index.erase(by_index.begin(), by_index.lower_bound(committed_));

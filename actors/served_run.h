@@ -1,6 +1,6 @@
 // One run while an actor serves it: its orders, the networks that they name, the flights, and the flown
 // episodes that are sent again if the learner announces their orders again. Orders and episodes are kept
-// within the window that the newest orders_t tells of, so memory is bounded. All times are microseconds.
+// within the window that the newest orders_t names, so memory is bounded. All times are microseconds.
 // Actor owns one. Not thread-safe.
 #pragma once
 
@@ -28,31 +28,31 @@ class ServedRun {
   const World& world() const { return world_; }
   NetworkStore& store() { return store_; }
 
-  /// Takes note of a message of the learner: `utime` is its time by the learner's clock, `now_us` the time by
-  /// a clock that stops while the process is stopped. Returns false if the message is stale: it could undo
-  /// the window or end the run. If the learner's clock was set back, everything is stale, and the actor joins
-  /// again.
+  /// Notes a message of the learner: `utime` is its time by the learner's clock, `now_us` the time by
+  /// a clock that stops while the process is stopped. Returns false if the message is stale, so must be
+  /// dropped: it could move the window back or end the run. If the learner's clock was set back, everything
+  /// is stale, and the actor joins again.
   bool Hear(int64_t utime, int64_t now_us);
   int64_t last_heard_us() const { return last_heard_us_; }
   /// The newest time of a message by the learner's clock.
   int64_t newest_utime() const { return newest_utime_; }
 
-  /// Takes on this actor's orders of the message, and forgets what lies outside of the message's window.
-  /// Returns how many parts of the message contradict the run.
+  /// Accepts the message's orders for this actor, and forgets orders and episodes outside of its window.
+  /// Returns how many fields and orders of the message contradict the run.
   int HandleOrders(const orders_t& message, int64_t actor_id, int64_t now_us);
 
-  /// Starts every order for which there is room and whose networks are here, and flies one slot of each
+  /// Starts every order for which there is room and whose networks are complete, and flies one slot of each
   /// flight.
   void Step(int64_t now_us);
   bool Idle() const { return flyer_.Idle(); }
 
   /// Fills in the fields about orders and networks.
   void WriteTo(actor_status_t& status, int64_t now_us);
-  /// Indented lines for people: what every order waits for, and the networks that are here.
+  /// Indented lines for people: what every order waits for, and the networks that are complete.
   std::string StateText(int64_t now_us) const;
 
  private:
-  /// What an order brought, and when it was sent.
+  /// The result of an order, and when it was last sent.
   struct Flown {
     Order order;
     OrderResult result;

@@ -2,14 +2,14 @@
 // checked, and only bytes that have arrived take memory. No I/O, no clock. Only one thread may use an object;
 // the thread of MulticastListener does.
 //
-// The format of the datagrams that LCM sends over UDP multicast. A datagram is a whole message or a fragment
-// of one. All numbers are big-endian, and a zero byte ends the channel's name:
+// The format of the datagrams that LCM sends over UDP multicast. A datagram is a complete message or a
+// fragment of one. All numbers are big-endian, and a zero byte ends the channel's name:
 //
-//   whole message: "LC02", uint32 sequence, channel, content
+//   complete message: "LC02", uint32 sequence, channel, content
 //   fragment:      "LC03", uint32 sequence, uint32 message_bytes, uint32 offset, uint16 number, uint16 count,
 //                  in fragment 0 the channel, data
 //
-// `message_bytes` is the size of the whole content, and `offset` is the position of the fragment's data in
+// `message_bytes` is the size of the complete content, and `offset` is the position of the fragment's data in
 // it. Fragments with the same sender and sequence belong to the same message.
 #pragma once
 
@@ -51,7 +51,7 @@ class MessageAssembler {
   explicit MessageAssembler(size_t memory_limit_bytes = kMemoryBytes)
       : memory_limit_bytes_(memory_limit_bytes) {}
 
-  /// Adds a datagram and returns a message if the datagram is a whole message or completes one; otherwise
+  /// Adds a datagram and returns a message if the datagram is a complete message or completes one; otherwise
   /// nullopt. `sender` is the sender's IPv4 address and port as one number, `utime` the time of arrival in
   /// microseconds.
   ///

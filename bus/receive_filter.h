@@ -1,7 +1,7 @@
-// A kernel filter that lets LCM receive only whole messages of subscribed channels. It is needed because LCM
-// 1.3.1 writes outside its memory if the header of a fragment ("LC03") is forged, joins fragments to messages
-// of up to 256 MiB, and remembers every channel name that it ever saw. All of Fresco's messages fit one
-// datagram. Programs that receive all channels do not use LCM for it (bus/multicast_listener.h).
+// A kernel filter that lets LCM receive only unfragmented messages of subscribed channels. It is needed
+// because LCM 1.3.1 writes outside its memory if the header of a fragment ("LC03") is forged, joins fragments
+// to messages of up to 256 MiB, and remembers every channel name that it ever saw. All of Fresco's messages
+// fit one datagram. Programs that receive all channels do not use LCM for it (bus/multicast_listener.h).
 //
 // One thread may use a filter; LCM's own thread may read the socket at the same time.
 #pragma once
@@ -31,8 +31,8 @@ class ReceiveFilter {
   /// From now on no datagram passes. `socket` must stay open while the filter is used.
   explicit ReceiveFilter(int socket);
 
-  /// From now on whole messages ("LC02") of exactly this channel pass, too. `channel` has at most 63 bytes
-  /// and no zero byte.
+  /// From now on unfragmented messages ("LC02") of exactly this channel pass, too. `channel` has at most 63
+  /// bytes and no zero byte.
   void Pass(const std::string& channel);
 
  private:

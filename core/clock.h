@@ -12,11 +12,11 @@ int64_t WallMicroseconds();
 /// Microseconds of a clock that never jumps, from an arbitrary origin: for deadlines and rates.
 int64_t MonotonicMicroseconds();
 
-/// Processor time that the calling thread has taken so far, in microseconds: it stands still while the
-/// thread waits for a processor or for anything else.
+/// Processor time that the calling thread has used so far, in microseconds. It does not advance while
+/// the thread waits for a processor or for anything else.
 int64_t ThreadProcessorMicroseconds();
 
-/// A clock for judging the silence of others: it goes on only while its owner looks at it. Time in which the
+/// A clock for judging the silence of others: it advances only while its owner looks at it. Time in which the
 /// process was stopped, or its host asleep, is not time in which others said nothing. Not thread-safe.
 class AttentiveClock {
  public:
@@ -32,7 +32,7 @@ class AttentiveClock {
  private:
   bool looked_ = false;
   int64_t last_look_us_ = 0;
-  int64_t now_us_ = 1;  // so that 0 may stand for "never"
+  int64_t now_us_ = 1;  // so that 0 can mean "never"
 };
 
 /// Measures how fast a count grows, over times of at least a second. Not thread-safe.

@@ -10,7 +10,7 @@
 namespace fresco {
 
 /// Writes `content` to a temporary file beside `path`, syncs it, renames it over `path` and syncs the folder.
-/// Throws Failure naming the path and the cause (a full disk, say); `path` is then what it was before.
+/// Throws Failure naming the path and the cause (a full disk, say); `path` is then unchanged.
 void WriteFileAtomically(const std::filesystem::path& path, std::string_view content);
 
 /// Whether this is the temporary file of WriteFileAtomically, left by a process that was killed.
@@ -23,12 +23,12 @@ std::string ReadFile(const std::filesystem::path& path);
 /// to, or can be made. Makes nothing.
 void CheckOutputFolder(const std::filesystem::path& folder, const std::string& option = "--out");
 
-/// Keeps a folder for one process at a time. The lock ends with the process, however it ends.
+/// Reserves a folder for one process at a time. The lock ends with the process, however it ends.
 class FolderLock {
  public:
-  /// Takes the lock, waiting up to `patience_us` for a process that is about to end. Throws UsageError,
+  /// Locks the folder, waiting up to `patience_us` for a process that is about to end. Throws UsageError,
   /// naming the folder, if another process keeps it or the folder can't be opened. On a file
-  /// system without locks it is never taken.
+  /// system without locks, nothing is locked and nothing thrown.
   explicit FolderLock(const std::filesystem::path& folder, int64_t patience_us = 0);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -14,7 +14,7 @@ inline constexpr char kSoftwareVersion[] = "0.1.0";
 /// How this program was called, for commands that a person is told to type.
 std::string ProgramName();
 
-/// A program that stands beside this one: fresco-learner, fresco-actor. Throws UsageError if it can't be run.
+/// A program in the folder of this one: fresco-learner, fresco-actor. Throws UsageError if it can't be run.
 std::filesystem::path SiblingProgram(const std::string& name);
 
 /// The folder of the files that are the same on every host, share/fresco: ready experiments, the jars of

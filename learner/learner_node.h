@@ -48,17 +48,16 @@ class LearnerNode {
 
   // ---- Any thread.
   BusCounters counters() const;
-  /// Goes on counting from these, of the same run's learner before.
+  /// Continues counting from these: those of the same run before it was resumed.
   void RestoreCounters(const BusCounters& counters);
   /// What the trainer waits for, for whom and in which stage; empty: nothing.
   std::string WaitingFor() const;
   /// How long the trainer has waited for the next result; time in which this process was stopped does not
   /// count.
   double StarvedSeconds() const;
-  /// For people, a few lines: where the run stands, actors and their orders, networks, counters.
+  /// A few lines for people: progress, actors and their orders, networks, counters.
   std::string StateText() const;
-  /// Set as soon as another learner was heard on the same channels, with a time of now: the run that it
-  /// announces.
+  /// The id of the run of another learner that was heard on the same channels, with a current time; 0: none.
   int64_t foreign_run() const;
 
  private:

@@ -31,7 +31,7 @@ struct ActorRecord {
 
 class Roster {
  public:
-  /// The most actors remembered at a time. If there are as many, a new one takes the place of one that is
+  /// The most actors remembered at a time. If there are as many, a new one replaces one that is
   /// gone.
   static constexpr size_t kMaximumActors = 4096;
 

@@ -27,7 +27,7 @@ class RunAnnouncer {
   /// Judges an announcement that arrived on `channel` at `now_utime`, microseconds since the epoch. Returns
   /// false if it is this run's own. Logs the first one of another run, and the first one of a recorded run.
   bool IsForeign(const run_t& message, const std::string& channel, int64_t now_utime);
-  /// The run of the last foreign announcement that is of now; 0: there was none.
+  /// The run of the last foreign announcement that is current; 0: there was none.
   int64_t foreign_run() const { return foreign_run_; }
 
  private:

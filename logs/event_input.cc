@@ -28,7 +28,7 @@ class EventInput::LiveBus {
     if (seconds > 0) {
       end_us_ = MonotonicMicroseconds() + static_cast<int64_t>(1e6 * seconds);
     }
-    bus_->SubscribeToAll([this](const LcmEvent& event) { Take(event); });
+    bus_->SubscribeToAll([this](const LcmEvent& event) { Copy(event); });
   }
 
   std::optional<LcmEvent> Next() {
@@ -49,7 +49,7 @@ class EventInput::LiveBus {
 
  private:
   /// Copies the event, since it is valid during the call only.
-  void Take(const LcmEvent& event) {
+  void Copy(const LcmEvent& event) {
     channel_.assign(event.channel);
     message_.assign(event.message.begin(), event.message.end());
     event_ = {event.number, event.utime, channel_, message_};

@@ -89,7 +89,7 @@ std::optional<LcmEvent> EventLogReader::Next() {
     const Header header(buffered().data());
     if (header.IsPossible() && Buffer(header.event_bytes())) {
       if (!SwallowsAnother(header.event_bytes())) {
-        return Take(header.event_bytes(), static_cast<size_t>(header.channel_bytes));
+        return Consume(header.event_bytes(), static_cast<size_t>(header.channel_bytes));
       }
     } else if (header.IsPossible() && !HasWholeEvent(FileBytes())) {
       break;
@@ -100,7 +100,7 @@ std::optional<LcmEvent> EventLogReader::Next() {
   return std::nullopt;
 }
 
-LcmEvent EventLogReader::Take(size_t event_bytes, size_t channel_bytes) {
+LcmEvent EventLogReader::Consume(size_t event_bytes, size_t channel_bytes) {
   const auto event = buffered().first(event_bytes);
   const Header header(event.data());
   begin_ += event_bytes;

@@ -43,7 +43,7 @@ class EventLogReader {
   int64_t torn_bytes() const { return torn_bytes_; }
 
  private:
-  LcmEvent Take(size_t event_bytes, size_t channel_bytes);
+  LcmEvent Consume(size_t event_bytes, size_t channel_bytes);
   bool SwallowsAnother(size_t event_bytes);
   bool HasWholeEvent(int64_t end);
   bool WholeEventBeginsAt(int64_t offset) const;

@@ -45,7 +45,7 @@ struct ActorTraffic {
   IntervalSet sequences{1024};  ///< numbers of its recorded statuses; missing ones were lost
 };
 
-/// Takes the events in one pass. It decodes only what it needs, and no networks. Its memory does not depend
+/// Sums up logs in one pass. It decodes only what it needs, and no networks. Its memory does not depend
 /// on the size of the logs.
 class LogSummary {
  public:

@@ -59,7 +59,7 @@ void LoggedEpisodes::Survey() {
         whole_.insert(transitions_.order_index);
       }
     } else if (message->DecodeAs(orders) && IsOurs(IdentityOf(orders))) {
-      TakeOrders(orders);
+      NoteOrders(orders);
     } else if (message->DecodeAs(weights) && IsOurs(IdentityOf(weights))) {
       // Only the channel says which of the two networks a chunk belongs to.
       const auto kind = message->channel.ends_with("_TARGET") ? NetworkKind::kTarget : NetworkKind::kCurrent;
@@ -70,7 +70,7 @@ void LoggedEpisodes::Survey() {
   refused_ = messages.refused();
 }
 
-void LoggedEpisodes::TakeOrders(const orders_t& message) {
+void LoggedEpisodes::NoteOrders(const orders_t& message) {
   for (const order_t& wire : message.orders) {
     Order order;
     if (FromWire(wire, order)) {

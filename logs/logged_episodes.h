@@ -61,7 +61,7 @@ class LoggedEpisodes {
 
   bool IsOurs(RunIdentity identity) const { return identity == identity_; }
   void Survey();
-  void TakeOrders(const orders_t& message);
+  void NoteOrders(const orders_t& message);
 
   LogSource source_;
   RunIdentity identity_;

@@ -26,7 +26,7 @@ std::optional<LogMessage> LogMessages::Next() {
 std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
   std::vector<LoggedRun> runs;
   std::vector<RunAnnouncements> announcements;  // those of each run
-  const auto place_of = [&](RunIdentity identity) {
+  const auto index_of = [&](RunIdentity identity) {
     const auto found = std::find_if(runs.begin(), runs.end(),
                                     [&](const LoggedRun& run) { return run.identity == identity; });
     if (found != runs.end()) {
@@ -41,14 +41,14 @@ std::vector<LoggedRun> FindLoggedRuns(const LogSource& source) {
   transitions_t transitions{};
   while (const auto message = messages.Next()) {
     if (message->DecodeAs(run)) {
-      const size_t place = place_of(IdentityOf(run));
-      runs[place].protocol_version = run.protocol_version;
-      runs[place].arithmetic_fingerprint = run.arithmetic_fingerprint;
-      if (!runs[place].config_text) {
-        runs[place].config_text = announcements[place].Add(run);
+      const size_t index = index_of(IdentityOf(run));
+      runs[index].protocol_version = run.protocol_version;
+      runs[index].arithmetic_fingerprint = run.arithmetic_fingerprint;
+      if (!runs[index].config_text) {
+        runs[index].config_text = announcements[index].Add(run);
       }
     } else if (message->DecodeAs(transitions)) {
-      ++runs[place_of(IdentityOf(transitions))].transitions_messages;
+      ++runs[index_of(IdentityOf(transitions))].transitions_messages;
     }
   }
   return runs;

@@ -80,8 +80,8 @@ void MergedEventLogs::OpenThoseThatBegin() {
     waiting_.pop_front();
     log.reader = std::make_unique<EventLogReader>(log.path);
     log.next = log.reader->Next();
-    const auto behind =
-        std::find_if(open_.begin(), open_.end(), [&](const Log& other) { return other.place > log.place; });
+    const auto behind = std::find_if(open_.begin(), open_.end(),
+                                     [&](const Log& other) { return other.position > log.position; });
     open_.insert(behind, std::move(log));
   }
 }

@@ -42,7 +42,7 @@ class MergedEventLogs {
  private:
   struct Log {
     std::filesystem::path path;
-    size_t place = 0;  // position among the paths
+    size_t position = 0;  // among the paths
     int64_t first_utime = 0;
     std::unique_ptr<EventLogReader> reader = nullptr;
     std::optional<LcmEvent> next = {};
@@ -52,7 +52,7 @@ class MergedEventLogs {
   void Advance(Log& log);
 
   std::deque<Log> waiting_;  // sorted by the time of their first event
-  std::vector<Log> open_;    // sorted by place
+  std::vector<Log> open_;    // sorted by position
   Log* handed_out_ = nullptr;
   Totals closed_;
 };

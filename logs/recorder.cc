@@ -17,7 +17,7 @@ constexpr int64_t kFlushPeriodUs = 500'000;
 
 Recorder::Recorder(Bus& bus, RecorderOptions options)
     : bus_(bus), options_(std::move(options)), writer_(options_.path, options_.split_bytes) {
-  bus_.SubscribeToAll([this](const LcmEvent& event) { Take(event); });
+  bus_.SubscribeToAll([this](const LcmEvent& event) { Add(event); });
   thread_ = std::thread([this] { WriteBatches(); });
 }
 
@@ -44,7 +44,7 @@ Recorder::Totals Recorder::Finish() {
   return totals_;
 }
 
-void Recorder::Take(const LcmEvent& event) {
+void Recorder::Add(const LcmEvent& event) {
   if (!options_.channels.Matches(event.channel)) {
     return;
   }
@@ -69,7 +69,7 @@ void Recorder::Take(const LcmEvent& event) {
 
 void Recorder::WriteBatches() {
   try {
-    while (TakeBatch()) {
+    while (WaitForBatch()) {
       WriteBatch();
     }
     writer_.Flush();
@@ -79,9 +79,9 @@ void Recorder::WriteBatches() {
   }
 }
 
-/// Waits a little, so that events come in batches, and takes the waiting ones. Returns false if the recorder
-/// ends and there are none.
-bool Recorder::TakeBatch() {
+/// Waits a little, so that events come in batches, and moves the waiting ones to writing_. Returns false if
+/// the recorder ends and there are none.
+bool Recorder::WaitForBatch() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kPause, [this] { return ending_ || waiting_.bytes.size() > kHurryBytes; });
   writing_.entries.clear();

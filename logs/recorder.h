@@ -41,11 +41,11 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Takes events that have arrived. If there are none, waits up to `timeout_us` for the first. Throws
-  /// Failure if the log can't be written; the events written before can still be read.
+  /// Adds events that have arrived to the batch to be written. If there are none, waits up to `timeout_us`
+  /// for the first. Throws Failure if the log can't be written; the events written before can still be read.
   void Step(int64_t timeout_us);
 
-  /// Takes the events that have arrived already, writes everything and closes the log. Throws as Step does.
+  /// Adds the events that have arrived already, writes everything and closes the log. Throws as Step does.
   Totals Finish();
 
   const Totals& totals() const { return totals_; }
@@ -63,9 +63,9 @@ class Recorder {
     size_t memory_bytes() const { return bytes.size() + entries.size() * sizeof(Entry); }
   };
 
-  void Take(const LcmEvent& event);
+  void Add(const LcmEvent& event);
   void WriteBatches();
-  bool TakeBatch();
+  bool WaitForBatch();
   void WriteBatch();
   void EndThread();
   void ThrowProblem();

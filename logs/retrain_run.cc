@@ -151,10 +151,10 @@ RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Expe
   }
   retraining_.emplace(
       experiment_, world_, episodes_, use, strict,
-      [this](const Trainer& trainer, const Evaluation& evaluation) { TakeEvaluation(trainer, evaluation); });
+      [this](const Trainer& trainer, const Evaluation& evaluation) { WriteEvaluation(trainer, evaluation); });
 }
 
-void RetrainRun::TakeEvaluation(const Trainer& trainer, const Evaluation& evaluation) {
+void RetrainRun::WriteEvaluation(const Trainer& trainer, const Evaluation& evaluation) {
   folder_->AddMetrics(evaluation, trainer.progress(), SecondsSince(begin_us_));
   if (trainer.best()->evaluation.version == evaluation.version) {
     folder_->WriteBest(*trainer.best());

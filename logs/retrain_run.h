@@ -62,7 +62,7 @@ class RetrainRun {
   bool completed() const { return completed_; }
 
  private:
-  void TakeEvaluation(const Trainer& trainer, const Evaluation& evaluation);
+  void WriteEvaluation(const Trainer& trainer, const Evaluation& evaluation);
   std::string Results(double wall_s, const OptimumResult& optimum);
 
   Experiment experiment_;

@@ -34,9 +34,9 @@ Retraining::Retraining(const Experiment& experiment, const World& world, LoggedE
 
 TrainerOutput Retraining::Output(EvaluationHandler evaluated) {
   TrainerOutput output;
-  output.order = [this](const Order& order) { TakeOrder(order); };
+  output.order = [this](const Order& order) { AddOrder(order); };
   output.version = [this](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
-    TakeVersion(version.kind, version.number, std::move(parameters));
+    KeepVersion(version.kind, version.number, std::move(parameters));
   };
   output.evaluation = [this, evaluated = std::move(evaluated)](const Evaluation& evaluation) {
     evaluated(trainer_, evaluation);
@@ -44,7 +44,7 @@ TrainerOutput Retraining::Output(EvaluationHandler evaluated) {
   return output;
 }
 
-void Retraining::TakeVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
+void Retraining::KeepVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters) {
   if (use_ == Use::kSameRun) {
     if (const auto recorded = episodes_->WeightsCrc(kind, version)) {
       const std::span values(parameters->data(), static_cast<size_t>(parameters->size()));
@@ -61,7 +61,7 @@ bool Retraining::IsRecorded(const Order& order) const {
   return use_ == Use::kSameRun ? episodes_->whole().contains(order.index) : order.kind == OrderKind::kTrain;
 }
 
-void Retraining::TakeOrder(const Order& order) {
+void Retraining::AddOrder(const Order& order) {
   const bool is_recorded = IsRecorded(order);
   if (!is_recorded) {
     if (strict_ && use_ == Use::kSameRun) {

@@ -61,8 +61,8 @@ class Retraining {
   };
 
   TrainerOutput Output(EvaluationHandler evaluated);
-  void TakeOrder(const Order& order);
-  void TakeVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
+  void AddOrder(const Order& order);
+  void KeepVersion(NetworkKind kind, int32_t version, std::shared_ptr<const Vector> parameters);
   bool IsRecorded(const Order& order) const;
   Episode EpisodeOf(const PendingOrder& pending);
   Episode WaitForFlight(const PendingOrder& pending);

@@ -1,5 +1,6 @@
-// Fresco's messages over a bus. What is sent gets its run and the time and is encoded; what arrives is
-// decoded. What does not decode is counted, and whether it is for want of a key is known.
+// Fresco's messages over a bus. Publish adds the run and the time to a message and encodes it. Subscribe
+// decodes what arrives and counts what does not decode; KeyMismatch reports messages with a wrong or
+// missing key.
 //
 // Threads: Publish from any thread; Subscribe and the handlers on the thread that polls the bus; the counters
 // from any thread.
@@ -22,13 +23,13 @@ namespace fresco {
 
 class MessageBus {
  public:
-  /// `bus` must outlive the object, and must not be polled after the object's end.
+  /// `bus` must outlive the object, but must not be polled after the object is destroyed.
   explicit MessageBus(Bus& bus) : bus_(&bus) {}
   MessageBus(const MessageBus&) = delete;
   MessageBus& operator=(const MessageBus&) = delete;
 
-  /// Sends the message as one of this run, with the time of now. Returns false if the transport says that it
-  /// could not.
+  /// Sends the message with this identity and the present time. Returns false if the transport reports that
+  /// it could not.
   template <class Message>
   bool Publish(const std::string& channel, Message message, RunIdentity identity) {
     thread_local std::vector<std::byte> bytes;  // so that sending allocates nothing after a while
@@ -42,15 +43,15 @@ class MessageBus {
   template <class Message>
   void Subscribe(const std::string& channel, std::function<void(const Message&)> handler,
                  int queue_capacity = kDefaultQueueCapacity) {
-    const auto take = [this, handler = std::move(handler),
-                       message = std::make_shared<Message>()](std::span<const std::byte> bytes) {
+    const auto receive = [this, handler = std::move(handler),
+                          message = std::make_shared<Message>()](std::span<const std::byte> bytes) {
       if (Decode(bytes, *message)) {
         handler(*message);
       } else {
         NoteMalformed(bytes);
       }
     };
-    bus_->Subscribe(channel, take, queue_capacity);
+    bus_->Subscribe(channel, receive, queue_capacity);
   }
 
   int Poll(int64_t timeout_us) { return bus_->Poll(timeout_us); }
@@ -60,10 +61,11 @@ class MessageBus {
   /// Messages that the bus refused because they were not made with this program's key.
   int64_t unauthenticated_messages() const { return bus_->refused_messages(); }
 
-  /// How many messages were dropped because sender and receiver have not the same key; empty if none was. So
-  /// nobody waits without knowing why.
+  /// How many messages were dropped because sender and receiver do not have the same key; empty if none
+  /// was. For error messages and the status.
   std::string KeyMismatch() const;
-  /// KeyMismatch's text when it is there for the first time; empty at every other call. On one thread.
+  /// KeyMismatch's text at the first call after it is no longer empty; empty at every other call. Call it on
+  /// one thread only.
   std::string KeyMismatchNews();
 
  private:

@@ -34,10 +34,10 @@ inline int64_t MaximumOrdersInFlight(int32_t window) {
 /// Which of the two networks is meant.
 enum class NetworkKind : int8_t { kCurrent = 0, kTarget = 1 };
 
-/// What was flown for an order: its episode, or consecutive transitions of it (one message holds only some).
+/// The result of an order: its complete episode, or consecutive transitions of it, as one message holds.
 struct OrderResult {
   int64_t order_index = 0;
-  int32_t first_transition = 0;  ///< 0 .. T - 2; of the order's episode
+  int32_t first_transition = 0;  ///< position of the first of them in the order's episode, 0 .. T - 2
   Episode episode;
   std::vector<float> td_errors;  ///< temporal-difference error of each transition
 };
@@ -46,7 +46,7 @@ struct OrderResult {
 /// given out before.
 order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt);
 
-/// Reads an order from a message. Returns false if a value is out of range; `order` is then of no use.
+/// Reads an order from a message. Returns false if a value is out of range; `order` is then unspecified.
 bool FromWire(const order_t& message, Order& order);
 
 /// How many transitions fit one message for this many sensors; at least 1 for up to kMaximumSensors.
@@ -58,10 +58,10 @@ void SplitResult(const World& world, const OrderResult& result, int64_t actor_id
                  const std::function<void(const transitions_t&)>& send);
 
 /// Reads the part of a result that a message holds. Returns false if sizes, actions, cells or ages do not fit
-/// the world, or a value is not finite; `result` is then of no use.
+/// the world, or a value is not finite; `result` is then unspecified.
 bool FromWire(const World& world, const transitions_t& message, OrderResult& result);
 
-/// The memory of the longest result in this world, the object itself included.
+/// The memory of the longest result in this world, the object itself included, bytes.
 int64_t LongestResultBytes(const World& world);
 
 }  // namespace fresco

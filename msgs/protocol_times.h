@@ -1,5 +1,5 @@
-// The times of the protocol between learner and actors, in microseconds. They depend on each other, so they
-// are here together; the assertions say how.
+// The times of the protocol between learner and actors, in microseconds. They depend on each other, as the
+// assertions say. Constants and a pure function; any thread may use them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ inline constexpr int64_t kAskedRunPeriodUs = 50'000;        ///< and at most so 
 inline constexpr int64_t kScenarioPeriodUs = 1'000'000;     ///< FRESCO_SCENARIO, also from `fresco fly`
 inline constexpr int64_t kLearnerStatusPeriodUs = 200'000;  ///< FRESCO_LEARNER_STATUS
 inline constexpr int64_t kNewOrdersPeriodUs = 2'000;     ///< FRESCO_ORDERS, if an order is new or due again
-inline constexpr int64_t kOrderRepeatPeriodUs = 60'000;  ///< an order whose result is not here
+inline constexpr int64_t kOrderRepeatPeriodUs = 60'000;  ///< an order without a complete result
 inline constexpr int64_t kChunkBurstPeriodUs = 200;  ///< FRESCO_WEIGHTS_*, kChunksPerBurst chunks each time
 inline constexpr int kChunksPerBurst = 8;            ///< complete even with Linux's default socket buffers
 inline constexpr int64_t kChunkRepeatPeriodUs = 6'000;  ///< a chunk that was sent just now may be on its way
@@ -25,7 +25,7 @@ inline constexpr int64_t kResendPeriodUs = 50'000;        ///< an episode whose 
 
 // What silence and age mean:
 inline constexpr int64_t kSilentActorUs = 350'000;   ///< it gets no orders, and its own go to others
-inline constexpr int64_t kGoneActorUs = 3'000'000;   ///< it is forgotten
+inline constexpr int64_t kGoneActorUs = 3'000'000;   ///< it counts as gone
 inline constexpr int64_t kSilentRunUs = 10'000'000;  ///< an actor leaves the run
 inline constexpr int64_t kFreeBusUs = 700'000;       ///< a bus is free if no run is heard for so long
 /// So far behind the newest message of its learner, a message is a recorded one that somebody sends again.
@@ -44,7 +44,7 @@ static_assert(kChunkRequestPeriodUs > kChunkRepeatPeriodUs, "a chunk that is ask
 static_assert(kChunkRequestPeriodUs > kQuietVersionUs, "a version is quiet before its chunks are asked for");
 static_assert(kStaleUs > kRunPeriodUs, "a message may be late, but not by more than a recording");
 
-/// Whether a learner's message of `utime` is of now by the clock of this host, `now_utime`, both in
+/// Whether a learner's message of `utime` is current by the clock of this host, `now_utime`, both in
 /// microseconds since the epoch. If not, it is a recording of an earlier run that somebody sends again.
 inline bool IsCurrent(int64_t utime, int64_t now_utime) {
   return utime >= now_utime - kClockToleranceUs && utime <= now_utime + kClockToleranceUs;

@@ -12,11 +12,11 @@ namespace fresco {
 
 class RunAnnouncements {
  public:
-  /// Adds a part. Returns the configuration's text if every part of the run is here, otherwise nullopt. A
+  /// Adds a part. Returns the configuration's text if every part of the run has arrived, otherwise nullopt. A
   /// part of another run discards the parts of the run before. Ignores a part whose index is out of range.
   std::optional<std::string> Add(const run_t& message);
 
-  /// The number of parts that are here.
+  /// The number of parts that have arrived.
   int parts() const;
 
  private:

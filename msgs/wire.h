@@ -1,6 +1,6 @@
-// From LCM's generated types to bytes and back, guarded: generated decoders trust counts, so every
-// count is looked at before they run. All counts of a message stand first after its identity
-// (utime, run_id, config_hash), which is what makes the look possible. Thread-safe.
+// From LCM's generated types to bytes and back, guarded: generated decoders trust counts, so every count
+// is checked before they run. This is possible because all counts follow the identity of a message (utime,
+// run_id, config_hash) directly. Any thread may call the functions.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace fresco {
 /// Raised with every change to a .lcm file.
 inline constexpr int32_t kProtocolVersion = 4;
 
-/// Every message fits one Ethernet frame: LCM loses a whole message with one lost fragment.
+/// Every message fits one Ethernet frame: LCM drops a message if one of its fragments is lost.
 inline constexpr size_t kMaximumMessageBytes = 1350;
 /// Kept free in every message for a trailer behind LCM's encoding, which LCM's own decoders ignore: the
 /// CRC-32C of the encoding, big-endian (UDP's checksum lets too much through for a promise about bits), and
@@ -47,7 +47,7 @@ struct RunIdentity {
   bool operator==(const RunIdentity&) const = default;
 };
 
-/// LCM's encoding without the trailer; empty where the size is not allowed or the CRC does not hold.
+/// LCM's encoding without the trailer; empty if the size is not allowed or the CRC is wrong.
 std::span<const std::byte> WithoutTrailer(std::span<const std::byte> bytes);
 
 /// Whether bytes that do not decode are a sound message with an authentication tag behind it: their sender
@@ -65,7 +65,7 @@ bool CountsAreAllowed(std::span<const std::byte> encoding, std::span<const int32
 /// length and take any byte for the NUL; its encoders stop at the first.
 bool TextsAreAllowed(std::span<const std::byte> encoding, size_t offset, int count);
 
-/// Decodes a message; false where it is corrupt, of another type, malformed, oversized or longer
+/// Decodes a message; false if it is corrupt, of another type, malformed, oversized or longer
 /// than its content. What decodes encodes to the same bytes again. Never throws, never allocates more than
 /// the limits allow.
 template <class Message>

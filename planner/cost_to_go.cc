@@ -21,7 +21,7 @@ CostToGo::CostToGo(const PlannerProblem& problem, const SlotCells& slot_cells, c
         return;
       }
       if (slot < problem.slots()) {
-        TakeBestNext(problem, slot, slot_cells.At(slot)[static_cast<size_t>(number)], prices.dear_share);
+        ComputeBestNext(problem, slot, slot_cells.At(slot)[static_cast<size_t>(number)], prices.dear_share);
       }
       ComputePlace(problem, prices, slot, number);
     }
@@ -48,7 +48,7 @@ CostToGo::Place CostToGo::PlaceOf(int slot, int number) const {
 
 // Writes to best_next_, for each AoI in the next slot, the least cost over the cells that the UAV can move
 // to.
-void CostToGo::TakeBestNext(const PlannerProblem& problem, int slot, int cell, int32_t dear_share) {
+void CostToGo::ComputeBestNext(const PlannerProblem& problem, int slot, int cell, int32_t dear_share) {
   const int width = Width(slot + 1);
   std::fill_n(best_next_.begin(), width, std::numeric_limits<int32_t>::max());
   for (const Move move : kAllMoves) {
@@ -65,8 +65,8 @@ void CostToGo::TakeBestNext(const PlannerProblem& problem, int slot, int cell, i
   }
 }
 
-// The cost over a cell is the slot's own cost and price, plus the least cost of the next slot, where the
-// sensor may be served now or not.
+// The cost over a cell is the slot's own cost and price, plus the least cost of the next slot; it is
+// the lesser of the costs with and without serving the sensor now.
 void CostToGo::ComputePlace(const PlannerProblem& problem, const WholePrices& prices, int slot, int number) {
   const bool last_slot = slot == problem.slots();
   const int cell = slot_cells_->At(slot)[static_cast<size_t>(number)];

@@ -1,6 +1,7 @@
 // A table of the least cost of one sensor from any situation (slot, cell, AoI) until the end, if the UAV flew
 // for this sensor alone at the prices of price_ascent.h. It is computed exactly, in whole numbers, by
-// backward dynamic programming. Immutable after construction. Part of the exact planner; LowerBound owns it.
+// backward dynamic programming. Immutable after construction, so any thread may read it.
+// Part of the exact planner; LowerBound owns it.
 #pragma once
 
 #include <algorithm>
@@ -72,7 +73,7 @@ class CostToGo {
   int HighestAoi(int slot) const { return std::min(slot, options_.aoi_limit); }
   int Width(int slot) const { return HighestAoi(slot) - options_.lowest_aoi + 1; }
   size_t Offset(int slot, int number) const;
-  void TakeBestNext(const PlannerProblem& problem, int slot, int cell, int32_t dear_share);
+  void ComputeBestNext(const PlannerProblem& problem, int slot, int cell, int32_t dear_share);
   void ComputePlace(const PlannerProblem& problem, const WholePrices& prices, int slot, int number);
 
   const SlotCells* slot_cells_;

@@ -56,12 +56,12 @@ class Search {
               LowerBound::OverCell& bound);
   void AddChild(size_t parent, int64_t cost, int dear, int schedule, Move move, const Dominance& dominance,
                 LowerBound::OverCell& bound);
-  bool TakeGaps(int64_t cost, const Dominance& dominance, const LowerBound::OverCell& bound);
+  bool AppendGaps(int64_t cost, const Dominance& dominance, const LowerBound::OverCell& bound);
   void CutCandidates();
   void KeepUndominated(int32_t cell);
   void CutNext();
   int64_t LeastBound() const { return *std::min_element(labels_.bound.begin(), labels_.bound.end()); }
-  void TakeBestFlight();
+  void RecordBestFlight();
 
   const PlannerProblem& problem_;
   const LowerBound& lower_bound_;
@@ -98,7 +98,7 @@ LabelSearchResult Search::Run() {
       return std::move(result_);
     }
   }
-  TakeBestFlight();
+  RecordBestFlight();
   return std::move(result_);
 }
 
@@ -218,7 +218,7 @@ void Search::AddChild(size_t parent, int64_t cost, int dear, int schedule, Move 
   meter_.Count(static_cast<int64_t>(sensors_) * kUnitsPerSensor);
   // A child's bound is at least that of its parent.
   const int64_t least = std::max(labels_.bound[parent], cost + bound(child_aoi_.data(), dear));
-  if (least >= limit_ || !TakeGaps(cost, dominance, bound)) {
+  if (least >= limit_ || !AppendGaps(cost, dominance, bound)) {
     return;
   }
   if (least >= cutoff_) {
@@ -236,7 +236,7 @@ void Search::AddChild(size_t parent, int64_t cost, int dear, int schedule, Move 
 
 /// Appends the child's gaps. Returns false if some sensor can't be served early enough for a flight below the
 /// limit.
-bool Search::TakeGaps(int64_t cost, const Dominance& dominance, const LowerBound::OverCell& bound) {
+bool Search::AppendGaps(int64_t cost, const Dominance& dominance, const LowerBound::OverCell& bound) {
   const size_t begin = gaps_.size();
   gaps_.resize(begin + sensors_);
   for (size_t n = 0; n < sensors_; ++n) {
@@ -305,8 +305,9 @@ void Search::CutNext() {
   std::swap(next_, kept);
 }
 
-/// Takes the best label over the stop at slot T, after adding the last slot's cost, if it is below the limit.
-void Search::TakeBestFlight() {
+/// Writes the flight of the cheapest label over the stop at slot T to result_, if its cost, the last slot's
+/// included, is below the limit.
+void Search::RecordBestFlight() {
   int64_t least = limit_;
   size_t label = 0;
   for (size_t i = 0; i < labels_.size(); ++i) {

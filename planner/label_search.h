@@ -14,7 +14,7 @@
 
 namespace fresco {
 
-/// Stands for the cost of a flight if there is none.
+/// The cost if there is no flight.
 inline constexpr int64_t kNoCost = std::numeric_limits<int64_t>::max();
 
 struct LabelSearchResult {

@@ -1,6 +1,6 @@
 // The labels of one slot, stored by field. A label is a partial flight: a way to be over a cell at the
-// beginning of the slot, with the AoI and the cost that it has led to. A plain value. Part of the exact
-// planner.
+// beginning of the slot, with the AoI and the cost that it has led to. A plain value. Not thread-safe.
+// Part of the exact planner.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Labels {
   };
   std::vector<Range> ranges;
   std::vector<int64_t> cost;   // cost of the slots before this one
-  std::vector<int64_t> bound;  // lower bound of the whole cost of any flight that continues the label
+  std::vector<int64_t> bound;  // lower bound of the total cost of any flight that continues the label
   std::vector<int64_t> least;  // Dominance::LeastCost
   std::vector<int32_t> dear;   // dear slots so far (PlannerProblem::IsDear)
   std::vector<int16_t> aoi;    // [labels x sensors]

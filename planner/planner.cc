@@ -30,7 +30,7 @@ class Planner {
   void BeginWithBaselines();
   void Search();
   int64_t CostOf(const Episode& flight) const;
-  void Take(const LabelSearchResult& result);
+  void Use(const LabelSearchResult& result);
   void Conclude();
   double LowerBoundTotalAoi() const;
   double AverageAoi(int64_t cost) const {
@@ -84,11 +84,11 @@ void Planner::Search() {
   int64_t width = 0;
   while (proved_ < cost_ && width < widest && !meter_.stopped()) {
     width = std::min(std::max(kFirstWidth, width * kWidthFactor), widest);
-    Take(SearchLabels(problem_, lower_bound, distances, cost_, width, meter_));
+    Use(SearchLabels(problem_, lower_bound, distances, cost_, width, meter_));
   }
 }
 
-void Planner::Take(const LabelSearchResult& result) {
+void Planner::Use(const LabelSearchResult& result) {
   plan_.labels += result.labels;
   proved_ = std::max(proved_, result.LowerBound(cost_));
   if (result.cost < cost_) {

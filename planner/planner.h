@@ -15,7 +15,7 @@ namespace fresco {
 /// How far the planner is. While it builds its tables, width, slot and labels are zero.
 struct PlannerProgress {
   int64_t width = 0;               ///< the most labels a slot in the present pass
-  int slot = 0;                    ///< where the present pass is
+  int slot = 0;                    ///< that the present pass has reached
   int64_t labels = 0;              ///< labels in that slot
   double lower_bound_average = 0;  ///< proved so far: no flight has a smaller average AoI
   double best_average = 0;         ///< average AoI of the best flight so far

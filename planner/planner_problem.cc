@@ -42,12 +42,12 @@ PlannerProblem::PlannerProblem(const World& world)
     : world_(&world),
       maximum_aoi_(std::min(world.scenario().maximum_aoi.value_or(slots()), slots())),
       hovering_is_dearer_(world.hovering_energy_j() >= world.flying_energy_j()) {
-  TakeSensors();
-  TakeEnergies();
-  TakeMoves();
+  ScaleWeights();
+  ComputeEnergies();
+  TabulateMoves();
 }
 
-void PlannerProblem::TakeSensors() {
+void PlannerProblem::ScaleWeights() {
   std::vector<double> weights;
   for (int sensor = 0; sensor < world_->sensors(); ++sensor) {
     const double weight = world_->scenario().sensors[static_cast<size_t>(sensor)].weight;
@@ -74,7 +74,7 @@ bool PlannerProblem::has_equal_weights() const {
   return std::all_of(weights_.begin(), weights_.end(), [&](int64_t weight) { return weight == 1; });
 }
 
-void PlannerProblem::TakeEnergies() {
+void PlannerProblem::ComputeEnergies() {
   cheap_energy_j_ = std::min(world_->hovering_energy_j(), world_->flying_energy_j());
   extra_energy_j_ = std::abs(world_->hovering_energy_j() - world_->flying_energy_j());
   const int moves = slots() - 1;
@@ -86,7 +86,7 @@ void PlannerProblem::TakeEnergies() {
   }
 }
 
-void PlannerProblem::TakeMoves() {
+void PlannerProblem::TabulateMoves() {
   after_.assign(static_cast<size_t>(cells()) * kMoves, -1);
   for (int cell = 0; cell < cells(); ++cell) {
     for (const Move move : kAllMoves) {

@@ -57,7 +57,7 @@ class PlannerProblem {
     return after_[static_cast<size_t>(cell) * kMoves + static_cast<size_t>(move)];
   }
 
-  /// A slot is dear if the UAV does in it what takes more energy: hovering in some scenarios, flying in
+  /// A slot is dear if its move is of the kind that takes more energy: hovering in some scenarios, flying in
   /// others. A flight's energy depends only on its number of dear slots. energy_binds says whether the budget
   /// limits this number.
   bool energy_binds() const { return energy_binds_; }
@@ -70,9 +70,9 @@ class PlannerProblem {
   int DearAllowance(int slot, int cell) const;
 
  private:
-  void TakeSensors();
-  void TakeEnergies();
-  void TakeMoves();
+  void ScaleWeights();
+  void ComputeEnergies();
+  void TabulateMoves();
 
   const World* world_;
   std::vector<int32_t> after_;  // by cell and move

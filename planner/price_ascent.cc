@@ -151,7 +151,7 @@ void PriceAscent::SweepBackward(bool reprice) {
       if (!meter_->Count(static_cast<int64_t>(sensors_) * Width(slot) * kUnitsPerEntry)) {
         return;
       }
-      TakeBestNext(slot, cells[number]);
+      ComputeBestNext(slot, cells[number]);
       if (reprice) {
         Reprice(slot, number, cells[number]);
       }
@@ -171,7 +171,7 @@ void PriceAscent::SweepForward() {
       if (!meter_->Count(static_cast<int64_t>(sensors_) * Width(slot) * kUnitsPerEntry)) {
         return;
       }
-      TakeBestNext(slot, cells[number]);
+      ComputeBestNext(slot, cells[number]);
       Reprice(slot, number, cells[number]);
       PushForward(slot, number, cells[number]);
     }
@@ -179,7 +179,7 @@ void PriceAscent::SweepForward() {
 }
 
 // Writes to best_next_ the least backward cost in the next slot over the cells that the UAV can move to.
-void PriceAscent::TakeBestNext(int slot, int cell) {
+void PriceAscent::ComputeBestNext(int slot, int cell) {
   if (slot == problem_->slots()) {
     std::fill(best_next_.begin(), best_next_.end(), 0.0f);
     return;

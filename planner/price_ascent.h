@@ -57,7 +57,7 @@ class PriceAscent {
   void ImproveDearPrice();
   void SweepBackward(bool reprice);
   void SweepForward();
-  void TakeBestNext(int slot, int cell);
+  void ComputeBestNext(int slot, int cell);
   Marginals MarginalsOf(size_t sensor, const float* forward, int slot, bool covered);
   void Reprice(int slot, size_t number, int cell);
   void StoreBackward(int slot, size_t number, int cell);

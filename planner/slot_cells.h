@@ -1,5 +1,6 @@
 // Lists, for each slot 1 .. T, the cells over which the UAV can be in a flight that arrives. Tables by slot
-// and cell have entries for these only. Immutable after construction. Part of the exact planner.
+// and cell have entries for these only. Immutable after construction, so any thread may read it. Part of
+// the exact planner.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace fresco {
 /// How far a pass of the label search is; all zero before the first pass.
 struct SearchProgress {
   int64_t width = 0;        ///< the most labels a slot in the present pass
-  int slot = 0;             ///< where the present pass is
+  int slot = 0;             ///< that the present pass has reached
   int64_t labels = 0;       ///< labels in that slot
   int64_t least_bound = 0;  ///< least bound of any label: no flight that costs less than the limit costs less
                             ///< than this

@@ -21,7 +21,7 @@ class RestartPolicy {
   /// process. `exit_status` is that of ChildProcess::ExitStatus.
   static bool EndedByOthers(int exit_status);
 
-  /// Takes note that a process ended after `lived_us`, and returns the pause before the next start,
+  /// Notes that a process ended after `lived_us`, and returns the pause before the next start,
   /// microseconds.
   int64_t NoteDeath(int exit_status, int64_t lived_us);
 

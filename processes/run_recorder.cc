@@ -98,7 +98,7 @@ void RunRecorder::WaitUntilItRecords(uintmax_t log_bytes_before) {
 void RunRecorder::Step() {
   if (!has_failed_ && process_->ExitStatus()) {
     has_failed_ = true;
-    spdlog::error("the recorder ended with status {}; the training goes on without it; {} ends with:{}",
+    spdlog::error("the recorder ended with status {}; the training continues without it; {} ends with:{}",
                   *process_->ExitStatus(), log_.string(), LastLines(log_, 2));
   }
 }

@@ -164,8 +164,8 @@ void TrainingRun::SignalLearner(int signal_number) {
   learner_->Signal(signal_number);
 }
 
-void TrainingRun::SignalActor(int place, int signal_number) {
-  const auto& process = actors_.at(static_cast<size_t>(place)).process;
+void TrainingRun::SignalActor(int number, int signal_number) {
+  const auto& process = actors_.at(static_cast<size_t>(number)).process;
   if (process != nullptr) {
     process->Signal(signal_number);
   }
@@ -173,9 +173,9 @@ void TrainingRun::SignalActor(int place, int signal_number) {
 
 std::vector<pid_t> TrainingRun::Pids() const {
   std::vector<pid_t> pids = {learner_->pid()};
-  for (const ActorPlace& place : actors_) {
-    if (place.process != nullptr) {
-      pids.push_back(place.process->pid());
+  for (const LocalActor& actor : actors_) {
+    if (actor.process != nullptr) {
+      pids.push_back(actor.process->pid());
     }
   }
   return pids;
@@ -224,41 +224,41 @@ BusOptions TrainingRun::NextBusOptions() {
 
 void TrainingRun::KeepActorsAlive() {
   for (size_t i = 0; i < actors_.size(); ++i) {
-    ActorPlace& place = actors_[i];
+    LocalActor& actor = actors_[i];
     const auto log = folder_ / fmt::format("actor-{}.log", i);
     const int64_t now_us = MonotonicMicroseconds();
-    if (place.process != nullptr && place.process->ExitStatus()) {
-      NoteDeath(place, log, now_us);
+    if (actor.process != nullptr && actor.process->ExitStatus()) {
+      NoteDeath(actor, log, now_us);
     }
-    if (place.process == nullptr && now_us >= place.start_at_us) {
-      place.process =
+    if (actor.process == nullptr && now_us >= actor.start_at_us) {
+      actor.process =
           std::make_unique<ChildProcess>(ActorCommand(experiment_, NextBusOptions(), run_id_), log);
     }
   }
 }
 
-void TrainingRun::NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us) {
-  const int status = place.process->ExitStatus().value();
+void TrainingRun::NoteDeath(LocalActor& actor, const std::filesystem::path& log, int64_t now_us) {
+  const int status = actor.process->ExitStatus().value();
   actor_failures_ += RestartPolicy::EndedByOthers(status) ? 0 : 1;
-  const int64_t pause_us = place.restarts.NoteDeath(status, now_us - place.process->started_us());
-  if (place.restarts.hopeless()) {
+  const int64_t pause_us = actor.restarts.NoteDeath(status, now_us - actor.process->started_us());
+  if (actor.restarts.hopeless()) {
     throw Failure(fmt::format("an actor ended {} times right after its start; its log {} ends with:{}",
                               RestartPolicy::kHopelessAfter, log.string(), LastLines(log, 3)));
   }
-  place.start_at_us = now_us + pause_us;
-  place.process.reset();
+  actor.start_at_us = now_us + pause_us;
+  actor.process.reset();
 }
 
 void TrainingRun::EndActors() {
   constexpr int64_t kPatienceUs = 3'000'000;
-  for (ActorPlace& place : actors_) {
-    if (place.process != nullptr) {
-      place.process->Signal(SIGTERM);
+  for (LocalActor& actor : actors_) {
+    if (actor.process != nullptr) {
+      actor.process->Signal(SIGTERM);
     }
   }
-  for (ActorPlace& place : actors_) {
-    if (place.process != nullptr) {
-      place.process->WaitForEnd(kPatienceUs);
+  for (LocalActor& actor : actors_) {
+    if (actor.process != nullptr) {
+      actor.process->WaitForEnd(kPatienceUs);
     }
   }
 }

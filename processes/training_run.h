@@ -70,10 +70,10 @@ class TrainingRun {
   int End();
 
   // ---- For `soak`, which disturbs and watches a run.
-  /// Sends a signal to the learner, or to the actor number `place` (0 .. run.actors - 1). Does nothing if
+  /// Sends a signal to the learner, or to the actor `number` (0 .. run.actors - 1). Does nothing if
   /// there is no such process at the moment.
   void SignalLearner(int signal_number);
-  void SignalActor(int place, int signal_number);
+  void SignalActor(int number, int signal_number);
   /// The ids of the processes that have started and not been seen to end, the learner's first.
   std::vector<pid_t> Pids() const;
   /// How often a local actor ended by itself: with an error, or by a signal that `soak` does not send.
@@ -95,8 +95,8 @@ class TrainingRun {
   std::string ResumeCommand() const;
 
  private:
-  /// The place of one local actor, whose process may be replaced.
-  struct ActorPlace {
+  /// One local actor, whose process may be replaced.
+  struct LocalActor {
     std::unique_ptr<ChildProcess> process;
     RestartPolicy restarts;
     int64_t start_at_us = 0;
@@ -110,7 +110,7 @@ class TrainingRun {
   BusOptions NextBusOptions();
   void KeepActorsAlive();
   void GiveUpOnASilentLearner() const;
-  void NoteDeath(ActorPlace& place, const std::filesystem::path& log, int64_t now_us);
+  void NoteDeath(LocalActor& actor, const std::filesystem::path& log, int64_t now_us);
   void EndActors();
 
   Experiment experiment_;
@@ -125,7 +125,7 @@ class TrainingRun {
   int64_t heard_us_ = 0;                   // time of the learner's last status, or of its start
   std::unique_ptr<RunRecorder> recorder_;  // declared before learner and actors, so that it ends after them
   std::unique_ptr<ChildProcess> learner_;
-  std::vector<ActorPlace> actors_;
+  std::vector<LocalActor> actors_;
   uint64_t started_processes_ = 0;
   int actor_failures_ = 0;
 };

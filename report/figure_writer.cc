@@ -43,10 +43,10 @@ struct EnergyFigure {
 };
 constexpr EnergyFigure kEnergyFigures[] = {
     {Figure::kEnergy, "energy", "Effect of the energy budget, Table I's rotor",
-     "Hovering is the dearer (219.8 W against 112.9 W in flight): the budget limits the hovers, and the "
+     "Hovering takes more power (219.8 W against 112.9 W in flight): the budget limits the hovers, and the "
      "optimum hardly needs any. DQN was trained at the marked budgets."},
-    {Figure::kEnergyDearFlight, "energy_dear_flight", "Effect of the energy budget, flight the dearer",
-     "With the rotor usual in the literature flight is the dearer (249 W against 168.5 W hovering): the "
+    {Figure::kEnergyDearFlight, "energy_dear_flight", "Effect of the energy budget, flying takes more power",
+     "With the rotor usual in the literature, flight takes more power (249 W against 168.5 W hovering): the "
      "budget limits how far the UAV flies. DQN was trained at the marked budgets."},
 };
 

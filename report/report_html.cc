@@ -12,7 +12,7 @@ namespace fresco {
 namespace {
 
 /// Whether a cell counts as a number. It may have a sign before it and a unit behind it. A dash or an empty
-/// cell counts, too: it stands for a missing number.
+/// cell counts, too, as a missing number.
 bool IsNumber(std::string_view cell) {
   constexpr std::string_view kSigns[] = {"-", "+", "\u2212", "\u2013", "\u2014", "\u00b1", "<", ">", "~"};
   for (const std::string_view sign : kSigns) {

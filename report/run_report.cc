@@ -85,11 +85,11 @@ FinishedRun::FinishedRun(const Path& folder)
     : experiment_(Experiment::Load((folder / "config.textproto").string())),
       world_(experiment_.scenario()),
       summary_(ReadFile(folder / "summary.json")) {
-  TakeFlights(folder);
-  TakeLearningCurve(folder);
+  AddFlights(folder);
+  ReadLearningCurve(folder);
 }
 
-void FinishedRun::TakeFlights(const Path& folder) {
+void FinishedRun::AddFlights(const Path& folder) {
   if (std::filesystem::exists(folder / "best.network")) {
     const StoredNetwork network = ReadNetworkFile(folder / "best.network");
     flights_.push_back({"this run (DQN)", FlyNetwork(world_, experiment_, network)});
@@ -104,7 +104,7 @@ void FinishedRun::TakeFlights(const Path& folder) {
   flights_.push_back({"distance-based", FlyBaseline(world_, BaselineKind::kDistance)});
 }
 
-void FinishedRun::TakeLearningCurve(const Path& folder) {
+void FinishedRun::ReadLearningCurve(const Path& folder) {
   learning_curve_.title = "Greedy flights during training";
   const Json optimal = Json::parse(summary_).at("optimal_average_aoi");
   if (!optimal.is_null()) {

@@ -50,8 +50,8 @@ class FinishedRun {
   const LearningCurve& learning_curve() const { return learning_curve_; }
 
  private:
-  void TakeFlights(const std::filesystem::path& folder);
-  void TakeLearningCurve(const std::filesystem::path& folder);
+  void AddFlights(const std::filesystem::path& folder);
+  void ReadLearningCurve(const std::filesystem::path& folder);
 
   Experiment experiment_;
   World world_;

@@ -79,12 +79,12 @@ class Study {
     constexpr int64_t kPollUs = 50'000;
     running_.resize(static_cast<size_t>(options_.parallel));
     while (done_ < to_run_) {
-      for (size_t place = 0; place < running_.size(); ++place) {
-        if (!running_[place] && !waiting_.empty()) {
-          Start(place);
+      for (size_t lane = 0; lane < running_.size(); ++lane) {
+        if (!running_[lane] && !waiting_.empty()) {
+          Start(lane);
         }
-        if (running_[place] && !running_[place]->run->Step(kPollUs)) {
-          Finish(place);
+        if (running_[lane] && !running_[lane]->run->Step(kPollUs)) {
+          Finish(lane);
         }
       }
       if (StopSignal::Requested()) {
@@ -115,36 +115,35 @@ class Study {
 
   Path FolderOf(size_t job) const { return options_.folder / jobs_[job].name; }
 
-  /// Each place has channels of its own, so that runs side by side share one bus.
-  Experiment ExperimentAt(size_t place, size_t job) const {
+  /// Each lane has channels of its own, so that runs side by side share one bus.
+  Experiment ExperimentAt(size_t lane, size_t job) const {
     proto::ExperimentConfig config = jobs_[job].experiment.config();
-    if (place > 0) {
-      config.mutable_run()->set_channel_prefix(
-          fmt::format("{}_{}", config.run().channel_prefix(), place + 1));
+    if (lane > 0) {
+      config.mutable_run()->set_channel_prefix(fmt::format("{}_{}", config.run().channel_prefix(), lane + 1));
     }
     return Experiment::Make(config, jobs_[job].name);
   }
 
-  std::unique_ptr<TrainingRun> MakeRun(size_t place, size_t job) const {
+  std::unique_ptr<TrainingRun> MakeRun(size_t lane, size_t job) const {
     const Path folder = FolderOf(job);
-    const Experiment experiment = ExperimentAt(place, job);
+    const Experiment experiment = ExperimentAt(lane, job);
     if (std::optional<Resumption> interrupted = InterruptedRun(folder, jobs_[job])) {
-      interrupted->experiment = experiment;  // differs in `run` only: place and LCM URL may have changed
+      interrupted->experiment = experiment;  // differs in `run` only: lane and LCM URL may have changed
       return std::make_unique<TrainingRun>(*interrupted, folder, options_.bus);
     }
     std::filesystem::remove_all(folder);  // a run can't continue from what is there
     return std::make_unique<TrainingRun>(experiment, folder, options_.bus);
   }
 
-  void Start(size_t place) {
+  void Start(size_t lane) {
     const size_t job = waiting_.front();
     waiting_.pop_front();
-    running_[place].emplace(Running{job, MakeRun(place, job)});
-    running_[place]->run->Start();
+    running_[lane].emplace(Running{job, MakeRun(lane, job)});
+    running_[lane]->run->Start();
   }
 
-  void Finish(size_t place) {
-    Running& running = *running_[place];
+  void Finish(size_t lane) {
+    Running& running = *running_[lane];
     const int status = running.run->End();
     running.run->Summary();  // throws with the learner's own words if there is no summary
     const auto result = CompleteResult(FolderOf(running.job), jobs_[running.job]);
@@ -156,7 +155,7 @@ class Study {
       results_[running.job] = *result;
       ++done_;
     }
-    running_[place].reset();
+    running_[lane].reset();
   }
 
   void EndAll() {
@@ -201,7 +200,7 @@ class Study {
   const StudyOptions& options_;
   std::vector<StudyResult> results_;
   std::deque<size_t> waiting_;                   // indices of jobs that have not started
-  std::vector<std::optional<Running>> running_;  // by place
+  std::vector<std::optional<Running>> running_;  // by lane
   size_t to_run_ = 0;
   size_t done_ = 0;
   int64_t begin_us_ = MonotonicMicroseconds();

@@ -92,12 +92,12 @@ class FaultInjector {
   /// The process ids of the guests that are running.
   std::vector<pid_t> GuestPids() const;
 
-  /// Takes note that the learner reported so many committed orders at `wall_us`.
+  /// Notes that the learner reported so many committed orders at `wall_us`.
   void NoteProgress(int64_t committed_orders, int64_t wall_us);
-  /// Takes note that the run was completed at `wall_us`, so it has recovered from all faults.
+  /// Notes that the run was completed at `wall_us`, so it has recovered from all faults.
   void NoteEnd(int64_t wall_us);
 
-  /// Whether a learner was killed since the last call.
+  /// Returns whether a learner was killed since the last call.
   bool TakeLearnerKill();
 
   const std::vector<InjectedFault>& faults() const { return faults_; }

@@ -51,7 +51,7 @@ class Round {
   void Step() {
     constexpr int64_t kPollUs = 20'000;
     const bool running = run_->Step(kPollUs);
-    TakeStatus();
+    ReadStatus();
     watch_.Look(Pids());
     if (!running) {
       GoOnOrEnd();
@@ -73,7 +73,7 @@ class Round {
     return pids;
   }
 
-  void TakeStatus() {
+  void ReadStatus() {
     const auto& status = run_->status();
     if (!status || (last_status_ && status->utime <= last_status_->utime)) {
       return;

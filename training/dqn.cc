@@ -11,18 +11,24 @@ std::span<const float> Span(const Vector& vector) {
   return {vector.data(), static_cast<size_t>(vector.size())};
 }
 
-/// The allowed action (penalty 0) with the largest value in this column; the lowest index if several have it.
-int BestAllowed(const Matrix& values, const Matrix& penalty, int column) {
-  int best = 0;
-  for (int action = 1; action < penalty.rows(); ++action) {
-    if (values(action, column) + penalty(action, column) > values(best, column) + penalty(best, column)) {
+}  // namespace
+
+std::optional<int> BestAllowedAction(const Matrix& values, int column, std::span<const uint8_t> mask,
+                                     int first, int end) {
+  std::optional<int> best;
+  for (int action = first; action < end; ++action) {
+    if (mask[static_cast<size_t>(action)] != 0 && (!best || values(action, column) > values(*best, column))) {
       best = action;
     }
   }
   return best;
 }
 
-}  // namespace
+int GreedyAction(const Matrix& values, int column, std::span<const uint8_t> mask) {
+  const std::optional<int> best = BestAllowedAction(values, column, mask, 0, static_cast<int>(mask.size()));
+  FRESCO_CHECK(best);
+  return *best;
+}
 
 Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options)
     : mlp_(shape),
@@ -84,14 +90,15 @@ void Dqn::ComputeTargets(const MiniBatch& batch) {
     mlp_.Forward(Span(current_), size, next_workspace_);
     for (int column = 0; column < size; ++column) {
       choices_[static_cast<size_t>(column)] =
-          BestAllowed(next_workspace_.output(), batch.next_penalty, column);
+          GreedyAction(next_workspace_.output(), column, batch.next_mask(column));
     }
   }
   mlp_.Forward(Span(target_), size, next_workspace_);
   for (int column = 0; column < size; ++column) {
     const auto i = static_cast<size_t>(column);
-    const int choice =
-        options_.double_dqn ? choices_[i] : BestAllowed(next_workspace_.output(), batch.next_penalty, column);
+    const int choice = options_.double_dqn
+                           ? choices_[i]
+                           : GreedyAction(next_workspace_.output(), column, batch.next_mask(column));
     const float next_value = next_workspace_.output()(choice, column);
     const float later = batch.terminal[i] != 0 ? 0.0f : options_.discount * next_value;
     targets_(column) = std::max(batch.rewards[i] + later, batch.least_values[i]);

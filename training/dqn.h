@@ -4,12 +4,22 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "nn/adam.h"
 #include "nn/mlp.h"
 #include "training/replay_memory.h"
 
 namespace fresco {
+
+/// Returns the allowed action with the largest of a column's values, among the actions from `first` to before
+/// `end`; the lowest one if several have it; none if none is allowed. `mask` has 1 or 0 for each action.
+std::optional<int> BestAllowedAction(const Matrix& values, int column, std::span<const uint8_t> mask,
+                                     int first, int end);
+
+/// The same among all actions. CHECKs that one is allowed.
+int GreedyAction(const Matrix& values, int column, std::span<const uint8_t> mask);
 
 struct DqnOptions {
   bool double_dqn = false;  ///< the current network chooses the action in s', the target network values it

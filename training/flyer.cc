@@ -19,24 +19,6 @@ int AllowedAction(const std::vector<uint8_t>& mask, uint32_t number) {
   FRESCO_CHECK(false);
 }
 
-/// The first allowed action of the largest value among those from `first` to before `end`.
-std::optional<int> BestAllowedAction(const Matrix& values, int column, const std::vector<uint8_t>& mask,
-                                     int first, int end) {
-  std::optional<int> best;
-  for (int action = first; action < end; ++action) {
-    if (mask[static_cast<size_t>(action)] != 0 && (!best || values(action, column) > values(*best, column))) {
-      best = action;
-    }
-  }
-  return best;
-}
-
-int GreedyAction(const Matrix& values, int column, const std::vector<uint8_t>& mask) {
-  const std::optional<int> best = BestAllowedAction(values, column, mask, 0, static_cast<int>(mask.size()));
-  FRESCO_CHECK(best);
-  return *best;
-}
-
 }  // namespace
 
 Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
@@ -80,7 +62,7 @@ void Flyer::Start(const Order& order, SharedParameters current, SharedParameters
 }
 
 void Flyer::Step(const std::function<void(const Order&, OrderResult&)>& finished) {
-  // Flights of the same two versions stand side by side; the order within a group has no influence.
+  // Flights of the same two versions are neighbours; the order within a group has no influence.
   std::stable_sort(flights_.begin(), flights_.end(), [](const auto& a, const auto& b) {
     return std::pair(a->order.current_version, a->order.target_version) <
            std::pair(b->order.current_version, b->order.target_version);
@@ -141,8 +123,9 @@ int Flyer::ChooseAction(Flight& flight, int column) const {
   return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.recorder.mask());
 }
 
-/// A random action, or one of an excursion: a straight flight to a random cell, scheduling greedily. It
-/// ends there, or where the mask does not let it go on. Nothing where the greedy action is due.
+/// Returns a random action, or one of an excursion: a straight flight to a random cell, scheduling greedily.
+/// An excursion ends there, or earlier if the mask forbids its next move. Returns nothing if the flight shall
+/// act greedily.
 std::optional<int> Flyer::Explore(Flight& flight, int column) const {
   const State& state = flight.recorder.environment().state();
   const std::vector<uint8_t>& mask = flight.recorder.mask();

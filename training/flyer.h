@@ -1,7 +1,6 @@
-// Flies orders: many environments side by side, epsilon-greedy, environments whose orders name the
-// same two versions sharing one forward pass. The episode of an order is a pure function of the
-// order and its networks; neither the company it flies in nor its place in the batch changes a bit.
-// Not thread-safe.
+// Flies orders in many environments side by side, epsilon-greedily. Environments whose orders name the same
+// two versions share one forward pass. The episode of an order is a pure function of the order and its
+// networks; neither the other flights nor its column in the batch change a bit. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include "msgs/experiment.h"
 #include "msgs/order.h"
 #include "nn/mlp.h"
+#include "training/dqn.h"
 #include "worlds/uav/episode.h"
 #include "worlds/uav/network_input.h"
 
@@ -37,7 +37,7 @@ class Flyer {
   bool IsFlying(int64_t order_index) const;
   std::vector<int64_t> OrderIndices() const;
 
-  /// Takes an order with the parameters of its two versions. CHECKs that there is room.
+  /// Begins the flight of an order with the parameters of its two versions. CHECKs that there is room.
   void Start(const Order& order, SharedParameters current, SharedParameters target);
 
   /// Flies one slot of every open order. Calls `finished` with the order and the result of each episode that

@@ -45,7 +45,7 @@ Ledger::Arrival Ledger::Add(const OrderResult& part) {
   return entry.episode ? Arrival::kCompleted : Arrival::kInconsistent;
 }
 
-/// Keeps the part if it brings a transition that was not here.
+/// Keeps the part if it has a transition that has not arrived before. Returns whether it does.
 bool Ledger::Keep(const OrderResult& part, Entry& entry) const {
   entry.actions.resize(static_cast<size_t>(world_->maximum_transitions()), kNotHere);
   const int arrived_before = entry.arrived;
@@ -65,7 +65,7 @@ bool Ledger::Keep(const OrderResult& part, Entry& entry) const {
   return true;
 }
 
-/// The episode of the actions that have arrived; none if a part says anything else than what is flown.
+/// Flies the actions that have arrived. Returns none if a part differs from this flight.
 std::optional<Episode> Ledger::FlyAgain(const Entry& entry) const {
   Episode flown;
   const std::span actions(entry.actions.data(), static_cast<size_t>(entry.length));

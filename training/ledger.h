@@ -1,6 +1,6 @@
-// The ledger: which orders are out, what of their results has arrived, and which episode comes next.
+// The ledger knows which orders are in flight, what of their results has arrived, and which episode is next.
 // Results may arrive in any order, in pieces, twice or not at all; episodes leave strictly by index,
-// each exactly once. This is the only place that does any of these jobs. Not thread-safe.
+// each exactly once. No other class does any of this. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,14 @@ class Ledger {
   /// `world` must outlive the ledger.
   Ledger(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
 
-  /// What so many orders take of memory, with their episodes.
+  /// The memory of so many orders in flight with their episodes, bytes.
   static int64_t BytesFor(const World& world, int64_t orders);
 
-  /// Enters an order. The first one says where the sequence begins; CHECKs that indices come without gap.
+  /// Adds an order. The first one may have any index; CHECKs that each further index is the next one.
   void Write(const Order& order);
 
   enum class Arrival {
-    kAccepted,      ///< new transitions of an order that is out
+    kAccepted,      ///< new transitions of an order in flight
     kCompleted,     ///< the order's last missing transitions
     kDuplicate,     ///< nothing new, or an order that is done
     kUnknownOrder,  ///< an order that was never written
@@ -38,22 +38,24 @@ class Ledger {
   };
 
   /// Keeps a part of a result that FromWire accepted. When an order's last transition has arrived, the
-  /// episode is flown again from its actions; what is flown is what TakeNext hands out, if every part agrees
-  /// with it.
+  /// ledger flies the episode again from its actions. If every part agrees with this flight, TakeNext returns
+  /// the flight; otherwise all parts are dropped.
   Arrival Add(const OrderResult& part);
 
-  /// The episode of the lowest index if it is complete; it is done then.
+  /// Removes the order with the lowest index and returns it with its episode; nullopt if that is not
+  /// complete.
   std::optional<CommittedEpisode> TakeNext();
 
-  /// Indices below are done.
+  /// Orders with an index below this one are done: TakeNext has returned them.
   int64_t committed() const { return committed_; }
-  /// Orders out, by index from committed() on.
+  /// The number of orders in flight; their indices begin at committed().
   int64_t in_flight() const { return static_cast<int64_t>(entries_.size()); }
+  /// The order with this index, which must be in flight.
   const Order& order(int64_t index) const { return entry(index).order; }
   bool IsComplete(int64_t index) const { return entry(index).episode.has_value(); }
 
  private:
-  /// An order that is out, and what of its result has arrived.
+  /// An order in flight, and what of its result has arrived.
   struct Entry {
     Order order;
     std::vector<OrderResult> parts = {};  // as they came; none once the episode is complete

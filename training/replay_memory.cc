@@ -14,7 +14,7 @@ MiniBatch::MiniBatch(int inputs, int action_count, int batch_size)
       rewards(static_cast<size_t>(batch_size)),
       terminal(static_cast<size_t>(batch_size)),
       least_values(static_cast<size_t>(batch_size), -std::numeric_limits<float>::infinity()),
-      next_penalty(action_count, batch_size) {}
+      next_masks(static_cast<size_t>(action_count) * static_cast<size_t>(batch_size)) {}
 
 ReplayMemory::ReplayMemory(int inputs, int actions, int64_t capacity)
     : actions_(actions),
@@ -29,10 +29,11 @@ ReplayMemory::ReplayMemory(int inputs, int actions, int64_t capacity)
       masks_(mask_size_ * static_cast<size_t>(capacity)) {}
 
 int64_t MiniBatch::BytesFor(int inputs, int action_count, int batch_size) {
-  const size_t of_transition =
-      (2 * static_cast<size_t>(inputs) + static_cast<size_t>(action_count)) * sizeof(Matrix::Scalar) +
-      sizeof(decltype(actions)::value_type) + sizeof(decltype(rewards)::value_type) +
-      sizeof(decltype(terminal)::value_type) + sizeof(decltype(least_values)::value_type);
+  const size_t of_transition = 2 * static_cast<size_t>(inputs) * sizeof(Matrix::Scalar) +
+                               static_cast<size_t>(action_count) * sizeof(decltype(next_masks)::value_type) +
+                               sizeof(decltype(actions)::value_type) + sizeof(decltype(rewards)::value_type) +
+                               sizeof(decltype(terminal)::value_type) +
+                               sizeof(decltype(least_values)::value_type);
   return batch_size * static_cast<int64_t>(of_transition);
 }
 
@@ -47,15 +48,15 @@ int64_t ReplayMemory::BytesFor(int inputs, int actions, int64_t capacity) {
 void ReplayMemory::Insert(const Transition& transition) {
   FRESCO_CHECK(static_cast<int64_t>(transition.observation.size()) == observations_.rows());
   FRESCO_CHECK(transition.next_mask.size() == mask_size_);
-  const auto place = static_cast<size_t>(next_);
+  const auto index = static_cast<size_t>(next_);
   std::copy(transition.observation.begin(), transition.observation.end(), observations_.col(next_).data());
   std::copy(transition.next_observation.begin(), transition.next_observation.end(),
             next_observations_.col(next_).data());
-  action_[place] = transition.action;
-  reward_[place] = transition.reward;
-  terminal_[place] = transition.terminal ? 1 : 0;
-  least_value_[place] = transition.least_value;
-  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + place * mask_size_);
+  action_[index] = transition.action;
+  reward_[index] = transition.reward;
+  terminal_[index] = transition.terminal ? 1 : 0;
+  least_value_[index] = transition.least_value;
+  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + index * mask_size_);
   next_ = (next_ + 1) % capacity_;
   size_ = std::min(size_ + 1, capacity_);
 }
@@ -67,11 +68,11 @@ void ReplayMemory::Sample(RandomStream& stream, MiniBatch& batch) const {
   }
 }
 
-void ReplayMemory::Copy(int64_t place, int column, MiniBatch& batch) const {
-  const auto from = static_cast<size_t>(place);
+void ReplayMemory::Copy(int64_t index, int column, MiniBatch& batch) const {
+  const auto from = static_cast<size_t>(index);
   const auto to = static_cast<size_t>(column);
-  batch.observations.col(column) = observations_.col(place);
-  batch.next_observations.col(column) = next_observations_.col(place);
+  batch.observations.col(column) = observations_.col(index);
+  batch.next_observations.col(column) = next_observations_.col(index);
   batch.actions[to] = action_[from];
   batch.rewards[to] = reward_[from];
   batch.terminal[to] = terminal_[from];
@@ -79,7 +80,7 @@ void ReplayMemory::Copy(int64_t place, int column, MiniBatch& batch) const {
   const uint8_t* mask = masks_.data() + from * mask_size_;
   for (int action = 0; action < actions_; ++action) {
     const bool allowed = (mask[action / 8] >> (action % 8) & 1) != 0;
-    batch.next_penalty(action, column) = allowed ? 0.0f : -std::numeric_limits<float>::infinity();
+    batch.next_masks[to * static_cast<size_t>(actions_) + static_cast<size_t>(action)] = allowed ? 1 : 0;
   }
 }
 

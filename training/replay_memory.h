@@ -20,6 +20,11 @@ struct MiniBatch {
   static int64_t BytesFor(int inputs, int actions, int batch_size);
 
   int size() const { return static_cast<int>(actions.size()); }
+  /// The actions allowed in s' of one transition: 1 or 0 for each.
+  std::span<const uint8_t> next_mask(int column) const {
+    const size_t count = next_masks.size() / actions.size();
+    return std::span(next_masks).subspan(static_cast<size_t>(column) * count, count);
+  }
 
   Matrix observations;              ///< [inputs x batch]
   Matrix next_observations;         ///< [inputs x batch]
@@ -27,8 +32,7 @@ struct MiniBatch {
   std::vector<float> rewards;       ///< [batch]
   std::vector<uint8_t> terminal;    ///< [batch]; 1: the episode ended, so there is no action in s'
   std::vector<float> least_values;  ///< [batch]; a lower bound of Q(s, a); -infinity if none is known
-  Matrix next_penalty;              ///< [actions x batch]; 0 if the action is allowed in s', otherwise
-                                    ///< -infinity
+  std::vector<uint8_t> next_masks;  ///< [batch x actions]; see next_mask
 };
 
 /// One transition (s, a, r, s') to insert.
@@ -55,8 +59,8 @@ class ReplayMemory {
   /// sizes.
   void Insert(const Transition& transition);
 
-  /// For a memory that is still empty: the next transition is inserted at the place that it would have after
-  /// `transitions` (>= 0) earlier ones.
+  /// For a memory that is still empty: the next transition is inserted at the index of the ring that it would
+  /// have after `transitions` (>= 0) earlier ones.
   void BeginAt(int64_t transitions) { next_ = transitions % capacity_; }
 
   /// Transitions held, at most the capacity.
@@ -66,7 +70,7 @@ class ReplayMemory {
   void Sample(RandomStream& stream, MiniBatch& batch) const;
 
  private:
-  void Copy(int64_t place, int column, MiniBatch& batch) const;
+  void Copy(int64_t index, int column, MiniBatch& batch) const;
   static size_t MaskBytes(int actions) { return (static_cast<size_t>(actions) + 7) / 8; }
 
   int actions_;
@@ -100,7 +104,7 @@ class ActionHistory {
   /// Adds the action of the next transition; `last` says whether it ends its episode.
   void Add(int16_t action, bool last);
 
-  /// Returns the actions of whole episodes, oldest first, so that they contain the latest `capacity`
+  /// Returns the actions of complete episodes, oldest first, so that they contain the latest `capacity`
   /// transitions (or all, if there were fewer). The first episode may begin before these. The transition
   /// added last must have ended its episode.
   std::vector<int16_t> Actions() const;

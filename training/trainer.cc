@@ -64,7 +64,7 @@ void Trainer::Commit(const Order& order, const Episode& episode) {
 
 /// Computes the return that the episode earned from each transition on. The world is deterministic, so this
 /// return is a lower bound of Q* (as in He et al., "Learning to play in a day", 2017).
-void Trainer::TakeLeastValues(const Episode& episode) {
+void Trainer::ComputeLeastValues(const Episode& episode) {
   if (!experiment_.agent().flown_return_bound()) {
     std::fill(least_values_.begin(), least_values_.end(), -std::numeric_limits<float>::infinity());
     return;
@@ -81,7 +81,7 @@ void Trainer::TakeLeastValues(const Episode& episode) {
 /// addition, so they have no influence on the training orders.
 void Trainer::CommitTraining(const Episode& episode) {
   const int64_t evaluations_due = EvaluationsDue();
-  TakeLeastValues(episode);
+  ComputeLeastValues(episode);
   for (int transition = 0; transition < episode.transitions(); ++transition) {
     Insert(episode, transition);
     history_.Add(episode.actions[static_cast<size_t>(transition)], transition + 1 == episode.transitions());

@@ -1,4 +1,4 @@
-// The trainer is the deterministic part of the learner. It takes episodes in the order of their indices;
+// The trainer is the deterministic part of the learner. It commits episodes in the order of their indices;
 // these alone decide every update, every network version, every further order and the final weights. It uses
 // no bus, no clock and no actor. The learner's training thread owns it. Not thread-safe.
 #pragma once
@@ -20,14 +20,14 @@
 
 namespace fresco {
 
-/// The functions to which the trainer hands its results. Begin, Resume and Commit call them, on their own
-/// thread.
+/// The functions to which the trainer hands its results. Begin, Resume and Commit call them, on the
+/// thread that called these.
 struct TrainerOutput {
-  /// Takes a new order.
+  /// Receives a new order.
   std::function<void(const Order&)> order;
-  /// Takes a new version of a network.
+  /// Receives a new version of a network.
   std::function<void(NetworkVersion, std::shared_ptr<const Vector>)> version;
-  /// Takes the result of an evaluation.
+  /// Receives the result of an evaluation.
   std::function<void(const Evaluation&)> evaluation;
   /// Called after every update, to report progress; may be empty.
   std::function<void()> updated;
@@ -49,8 +49,8 @@ class Trainer {
   /// Returns the state from which Resume can continue. Copies four parameter vectors and the actions.
   TrainingState Save() const;
 
-  /// Takes the episode of the oldest order that is not committed, inserts its transitions and makes the
-  /// updates that are due. CHECKs that it is that order. The caller has checked that the episode is whole and
+  /// Commits the episode of `order`: inserts its transitions and makes the updates that are due. CHECKs that
+  /// `order` is the oldest one that is not committed. The caller has checked that the episode is complete and
   /// follows from its actions.
   void Commit(const Order& order, const Episode& episode);
 
@@ -65,7 +65,7 @@ class Trainer {
  private:
   void CommitTraining(const Episode& episode);
   void CommitEvaluation(const Order& order, const Episode& episode);
-  void TakeLeastValues(const Episode& episode);
+  void ComputeLeastValues(const Episode& episode);
   void Insert(const Episode& episode, int transition);
   void UpdateOnce();
   void CopyToTarget();
@@ -94,7 +94,7 @@ class Trainer {
   Dqn dqn_;
   std::vector<float> observation_;
   std::vector<float> next_observation_;
-  std::vector<float> least_values_;  // for each transition of the episode that is being committed
+  std::vector<float> least_values_;  // lower bounds of Q*, by transition of the episode
   TrainerProgress progress_;
   int64_t training_orders_ = 0;       // training orders written so far
   std::deque<OrderInFlight> orders_;  // sorted by index, from progress_.committed_orders on

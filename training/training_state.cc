@@ -12,7 +12,7 @@ namespace {
 
 void Expect(bool condition, const std::string& problem) {
   if (!condition) {
-    throw Failure("the training can't go on from this state: " + problem);
+    throw Failure("the training can't continue from this state: " + problem);
   }
 }
 
@@ -129,7 +129,7 @@ void Trainer::CheckOrders(const TrainingState& state) const {
                      expected, schedule.window(), training, evaluations));
 }
 
-/// Flies the episodes again and puts every transition at the place that it had.
+/// Flies the episodes again and inserts every transition at its former index in the ring.
 void Trainer::RefillReplay(const TrainingState& state) {
   const auto count = static_cast<int64_t>(state.actions.size());
   const int64_t kept = std::min<int64_t>(state.progress.transitions, experiment_.agent().replay_capacity());
@@ -141,9 +141,9 @@ void Trainer::RefillReplay(const TrainingState& state) {
   int64_t to_skip = count - kept;  // of the oldest episode, and not in the replay memory any more
   for (Episode episode; !left.empty(); left = left.subspan(static_cast<size_t>(episode.transitions()))) {
     Expect(FlyActions(*world_, experiment_.mask_options(), left, episode),
-           fmt::format("the last {} actions of its replay memory are no whole episodes of this scenario",
+           fmt::format("the last {} actions of its replay memory are no complete episodes of this scenario",
                        left.size()));
-    TakeLeastValues(episode);
+    ComputeLeastValues(episode);
     for (int transition = 0; transition < episode.transitions(); ++transition) {
       history_.Add(episode.actions[static_cast<size_t>(transition)], transition + 1 == episode.transitions());
       if (to_skip > 0) {

@@ -68,7 +68,7 @@ struct TrainingState {
   Vector target;
   Adam::State adam;
   /// The actions of the episodes whose transitions are in the replay memory, oldest first. The episodes are
-  /// whole, so the first one may begin before the oldest transition in the memory. The world is
+  /// complete, so the first one may begin before the oldest transition in the memory. The world is
   /// deterministic, so the transitions follow from the actions.
   std::vector<int16_t> actions;
   std::optional<Evaluation> last_evaluation;

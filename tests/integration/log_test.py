@@ -315,7 +315,7 @@ class Log(Recorded):
         output, errors = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 0, errors)
         self.assertIn("INCOMPLETE", output)
-        self.assertIn("goes on without it", errors)
+        self.assertIn("continues without it", errors)
         bad = self.folder / "bad"
         (bad / "traffic.lcm").mkdir(parents=True)
         (bad / "recorder.log").mkdir()

@@ -42,9 +42,10 @@ TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
   ExpectNear(HeapUseOf([&] { return std::make_unique<MiniBatch>(25, 45, kColumns); }),
              MiniBatch::BytesFor(25, 45, kColumns));
   MiniBatch batch(25, 45, kColumns);
-  for (Matrix* matrix : {&batch.observations, &batch.next_observations, &batch.next_penalty}) {
+  for (Matrix* matrix : {&batch.observations, &batch.next_observations}) {
     matrix->setZero();
   }
+  std::fill(batch.next_masks.begin(), batch.next_masks.end(), uint8_t{1});
   const Vector initial = InitialParameters(kMemoryShape, 1);
   const int64_t measured = HeapUseOf([&] {
     auto dqn = std::make_unique<Dqn>(kMemoryShape, initial, DqnOptions{.batch_size = kColumns, .adam = {}});

@@ -56,7 +56,7 @@ class ExhaustiveSearch {
 /// fractional or zero; a third with a cap on the AoI. Always valid.
 Scenario TinyScenario(uint32_t index);
 
-/// Whether fewer slots than the flight's can be spent on the dearer of hovering and flying.
+/// Whether fewer slots than the flight's can be spent on whichever of hovering and flying takes more energy.
 bool EnergyBinds(const Scenario& scenario);
 bool HoveringIsDearer(const Scenario& scenario);
 

@@ -37,7 +37,7 @@ double LiteralTarget(const Doubles& current, const Doubles& target, const MiniBa
   const Doubles choosing = double_dqn ? Forward(current, batch.next_observations, column) : values;
   int best = -1;
   for (int action = 0; action < kLayers.back(); ++action) {
-    const bool allowed = batch.next_penalty(action, column) == 0;
+    const bool allowed = batch.next_mask(column)[static_cast<size_t>(action)] != 0;
     if (allowed &&
         (best < 0 || choosing[static_cast<size_t>(action)] > choosing[static_cast<size_t>(best)])) {
       best = action;
@@ -75,7 +75,7 @@ MiniBatch RandomBatch(RandomStream& stream) {
     const auto allowed = static_cast<int>(stream.NextBelow(4));
     for (int action = 0; action < 4; ++action) {
       const bool is_allowed = action == allowed || stream.NextBelow(2) == 0;
-      batch.next_penalty(action, column) = is_allowed ? 0.0f : -std::numeric_limits<float>::infinity();
+      batch.next_masks[i * 4 + static_cast<size_t>(action)] = is_allowed ? 1 : 0;
     }
   }
   return batch;

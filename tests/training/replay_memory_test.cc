@@ -86,8 +86,7 @@ TEST(ReplayMemory, GivesBackWhatWasInserted) {
     EXPECT_EQ(batch.rewards[i], value * 0.5f - 3);
     EXPECT_EQ(batch.terminal[i], k % 4 == 3 ? 1 : 0);
     for (int action = 0; action < kActions; ++action) {
-      EXPECT_EQ(batch.next_penalty(action, column),
-                AllowedAfter(k, action) ? 0.0f : -std::numeric_limits<float>::infinity());
+      EXPECT_EQ(batch.next_mask(column)[static_cast<size_t>(action)], AllowedAfter(k, action) ? 1 : 0);
     }
   }
 }
@@ -152,7 +151,7 @@ TEST(ReplayMemory, OverwritesAllOfABatch) {
   EXPECT_EQ(used.actions, fresh.actions);
   EXPECT_EQ(used.rewards, fresh.rewards);
   EXPECT_EQ(used.terminal, fresh.terminal);
-  EXPECT_TRUE((used.next_penalty.array() == fresh.next_penalty.array()).all());
+  EXPECT_TRUE(used.next_masks == fresh.next_masks);
 }
 
 TEST(ReplayMemoryDeathTest, ChecksThatThereIsSomethingToDraw) {

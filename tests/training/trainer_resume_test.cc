@@ -131,7 +131,7 @@ TEST_F(TrainerResumeRefusal, NamesAGapInTheOrders) {
 
 TEST_F(TrainerResumeRefusal, NamesActionsThatAreNoEpisodes) {
   state_.actions.back() = 14;  // hovering far from the stop in the last slot
-  EXPECT_THAT(Refusal(), HasSubstr("no whole episodes"));
+  EXPECT_THAT(Refusal(), HasSubstr("no complete episodes"));
   state_.actions.resize(20);
   EXPECT_THAT(Refusal(), HasSubstr("found 20"));
 }

@@ -82,10 +82,8 @@ class LiteralTraining {
       batch.rewards[i] = row.reward;
       batch.terminal[i] = row.terminal ? 1 : 0;
       batch.least_values[i] = row.least_value;
-      for (int action = 0; action < run_->world.actions(); ++action) {
-        const bool allowed = row.next_mask[static_cast<size_t>(action)] != 0;
-        batch.next_penalty(action, column) = allowed ? 0.0f : -std::numeric_limits<float>::infinity();
-      }
+      std::copy(row.next_mask.begin(), row.next_mask.end(),
+                batch.next_masks.begin() + static_cast<int64_t>(i * row.next_mask.size()));
     }
     dqn_.Update(batch, 1e-2 + (1e-4 - 1e-2) * (updates_ / 390.0));  // 60 x 13 / 2 are expected
     ++updates_;

@@ -17,7 +17,7 @@ namespace fresco {
 /// earns rewards[i] and leads to states[i + 1].
 struct Episode {
   Outcome outcome =
-      Outcome::kFlying;          ///< after the last transition; other than kFlying: that one is terminal
+      Outcome::kFlying;  ///< after the last transition; if it is not kFlying, that transition is terminal
   std::vector<State> states;     ///< transitions + 1
   std::vector<int16_t> actions;  ///< indices of actions (World::ActionIndex)
   std::vector<float> rewards;
@@ -36,7 +36,7 @@ inline int MaskSize(const World& world) {
 /// Appends a mask with one byte for each action as bits, filled up to a byte.
 void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
 
-/// The memory of the longest episode of the world, the object itself included.
+/// The memory of the longest episode of the world, the object itself included, bytes.
 int64_t LongestEpisodeBytes(const World& world);
 
 /// The action in states[slot]. In the last state nothing is decided: hover, schedule 0.
@@ -51,7 +51,7 @@ inline double ResidualEnergy(const World& world, const Episode& episode) {
 }
 
 /// Whether the transitions of `part` are, to the bit, those of `episode` from transition `first` on, and its
-/// outcome is what a part of the episode that ends there has to say.
+/// outcome is `episode`'s if they reach its end, otherwise kFlying.
 bool IsPartOf(const Episode& part, int first, const Episode& episode);
 
 /// An environment that records what is flown in it.
@@ -64,7 +64,7 @@ class EpisodeRecorder {
   /// The actions that are allowed now, one byte each.
   const std::vector<uint8_t>& mask() const { return mask_; }
   const Episode& episode() const { return episode_; }
-  /// Hands out what was recorded; the recorder is of no use afterwards.
+  /// Moves the episode out; afterwards only the destructor may be called.
   Episode Release() { return std::move(episode_); }
 
   /// Flies one slot. CHECKs as Environment::Step does; the action may be one that the mask forbids.
@@ -81,8 +81,8 @@ class EpisodeRecorder {
 /// Flies one episode from the start with the actions of `policy`. Its masks allow everything.
 Episode Fly(const World& world, const std::function<Action(const Environment&)>& policy);
 
-/// Flies the first of `actions` until the episode ends; there may be more of them. Returns false if an action
-/// is not allowed, or if the episode does not end with them; `episode` is then of no use.
+/// Flies `actions` from the start until the episode ends, and ignores the rest of them. Returns false if an
+/// action is not allowed, or if the episode has not ended after the last; `episode` is then unspecified.
 bool FlyActions(const World& world, MaskOptions mask_options, std::span<const int16_t> actions,
                 Episode& episode);
 

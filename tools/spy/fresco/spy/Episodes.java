@@ -4,7 +4,7 @@ import fresco.transitions_t;
 import java.util.Map;
 import java.util.TreeMap;
 
-/** Joins transitions_t messages, in any order, to whole episodes. Used on the event thread. */
+/** Joins transitions_t messages, in any order, to complete episodes. Used on the event thread. */
 final class Episodes {
   private static final int OPEN_EPISODES = 256;
   private static final int REMEMBERED_EPISODES = 1024;

@@ -5,7 +5,7 @@ import java.awt.geom.Ellipse2D;
 import java.awt.geom.Point2D;
 import java.awt.geom.Rectangle2D;
 
-/** Maps places of a field to the screen: the whole field, north up, with room for axes. Immutable. */
+/** Maps positions in a field to the screen: the whole field, north up, with room for axes. Immutable. */
 final class FieldView {
   private static final int LEFT = 62;
   private static final int RIGHT = 86; // the colour scale

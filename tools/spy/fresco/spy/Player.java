@@ -2,7 +2,7 @@ package fresco.spy;
 
 /**
  * Decides which flight is shown, and how much of it. Dozens of episodes arrive each second. One is shown from
- * start to end at a pace that people can follow, then the newest whole one. A live flight is shown while it
+ * start to end at a pace that people can follow, then the newest complete one. A live flight is shown while it
  * arrives, and has precedence over episodes. Used on the event thread.
  */
 final class Player {
@@ -30,7 +30,7 @@ final class Player {
   private double slotsPerS = 8;
   private boolean paused;
   private Flight flight;
-  private Flight newest; // whole, not shown yet
+  private Flight newest; // complete, not shown yet
   private Flight newestEvaluation;
   private double position; // index of the step, with a fraction on the way to the next
   private double heldS;
@@ -52,13 +52,13 @@ final class Player {
 
   void setPaused(boolean stop) { paused = stop; }
 
-  /** Takes a whole episode. */
+  /** Offers a complete episode, to be shown next. */
   void offer(Flight episode, boolean evaluation) {
     newest = episode;
     newestEvaluation = evaluation ? episode : newestEvaluation;
   }
 
-  /** Takes a live flight that has got a further slot. */
+  /** Shows a live flight, which has got a further slot. */
   void follow(Flight live) {
     if (choice == Choice.EVALUATIONS || paused) {
       return;
