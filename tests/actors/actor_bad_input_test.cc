@@ -90,8 +90,7 @@ TEST_F(ActorBadInput, IsCountedAndHarmlessWhereBytesAreMalformed) {
   send(flipped);
   EXPECT_EQ(NextStatus().rejected_messages, sent);
   EXPECT_EQ(actor_.totals().rejected.malformed, sent);
-  learner_.SendOrders(Orders(0, 2));
-  FlyAll();
+  SendAndFly(Orders(0, 2));
   ExpectEpisodes(0, {0, 1});
 }
 
@@ -107,8 +106,7 @@ TEST_F(ActorBadInput, IsCountedAndHarmlessWhereSoundMessagesAreOfRandomContent) 
   }
   Step();
   EXPECT_EQ(actor_.totals().rejected.total(), 4 * kRounds);
-  learner_.SendOrders(Orders(0, 2));
-  FlyAll();
+  SendAndFly(Orders(0, 2));
   ExpectEpisodes(0, {0, 1});
 }
 
@@ -143,8 +141,7 @@ TEST_F(ActorBadInput, IsCountedAndHarmlessWhereOrdersAreOutOfRange) {
     lie(orders.back());
   }
   orders.push_back(OrderTo(kActorId, 4));
-  learner_.SendOrders(orders);
-  FlyAll();
+  SendAndFly(orders);
   EXPECT_EQ(actor_.totals().rejected.inconsistent, static_cast<int64_t>(lies.size()));
   ExpectEpisodes(0, {0, 4});
 }

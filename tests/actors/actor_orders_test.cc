@@ -6,12 +6,22 @@
 namespace fresco {
 namespace {
 
-using ActorOrders = ActorTest;
+class ActorOrders : public ActorTest {
+ protected:
+  /// Four orders of a version that is not here.
+  void SendWaitingOrders(int64_t first, int64_t committed) {
+    std::vector<order_t> orders = Orders(first, 4);
+    for (order_t& order : orders) {
+      order.current_version = 1;
+    }
+    learner_.SendOrders(orders, committed);
+    Step();
+  }
+};
 
 TEST_F(ActorOrders, GiveWholeEpisodesWithTheBitsOfAFlyer) {
   BeginRun();
-  learner_.SendOrders(Orders(0, 5));
-  FlyAll();
+  SendAndFly(Orders(0, 5));
   ExpectEpisodes(0, {0, 1, 2, 3, 4});
   EXPECT_GT(learner_.results()[0].episode.transitions(), TransitionsPerMessage(world_.sensors()));
   EXPECT_EQ(learner_.senders(), std::set<int64_t>{kActorId});
@@ -49,8 +59,7 @@ TEST_F(ActorOrders, AreFlownOnceHoweverOftenTheyAreRepeated) {
 
 TEST_F(ActorOrders, OfOtherActorsAreIgnored) {
   BeginRun();
-  learner_.SendOrders({OrderTo(kActorId + 1, 0), OrderTo(kActorId, 1), OrderTo(0, 2)});
-  FlyAll();
+  SendAndFly({OrderTo(kActorId + 1, 0), OrderTo(kActorId, 1), OrderTo(0, 2)});
   ExpectEpisodes(0, {1});
   EXPECT_EQ(actor_.totals().rejected.total(), 0);
 }
@@ -68,8 +77,7 @@ TEST_F(ActorOrders, OfAnotherRunOrConfigurationAreCountedAndIgnored) {
 }
 
 TEST_F(ActorOrders, OfNoRunAreIgnored) {
-  learner_.SendOrders(Orders(0, 1));
-  FlyAll();
+  SendAndFly(Orders(0, 1));
   BeginRun();
   FlyAll();
   EXPECT_TRUE(learner_.results().empty());
@@ -77,8 +85,7 @@ TEST_F(ActorOrders, OfNoRunAreIgnored) {
 
 TEST_F(ActorOrders, ThatAreAnnouncedAgainHaveWhatWasFlownSentAgainEveryFiftyMilliseconds) {
   BeginRun();
-  learner_.SendOrders(Orders(0, 2));
-  FlyAll();
+  SendAndFly(Orders(0, 2));
   Step(50'000);
   for (int i = 0; i < 10; ++i) {  // with the attempt it had: a resumed learner counts anew
     learner_.SendOrders({OrderTo(kActorId, 0)});
@@ -93,21 +100,17 @@ TEST_F(ActorOrders, ThatAreAnnouncedAgainInFlightAreAnsweredByThatFlight) {
   BeginRun();
   learner_.SendOrders(Orders(0, 1));
   Step();
-  learner_.SendOrders({OrderTo(kActorId, 0, 1)});
-  FlyAll();
-  learner_.SendOrders({OrderTo(kActorId, 0, 1)});  // the result is on its way
-  FlyAll();
+  SendAndFly({OrderTo(kActorId, 0, 1)});
+  SendAndFly({OrderTo(kActorId, 0, 1)});  // the result is on its way
   ExpectEpisodes(0, {0});
 }
 
 TEST_F(ActorOrders, OfAResumedLearnerAreAnsweredWithWhatIsStillHereAndFlownAgainOtherwise) {
   BeginRun();
-  learner_.SendOrders(Orders(0, 5));
-  FlyAll();
+  SendAndFly(Orders(0, 5));
   learner_.SendOrders({}, 3);
   Step(50'000);
-  learner_.SendOrders(Orders(0, 5), 0);  // its checkpoint was at 0
-  FlyAll();
+  SendAndFly(Orders(0, 5), 0);  // its checkpoint was at 0
   ExpectEpisodes(5, {0, 1, 2, 3, 4});
   EXPECT_EQ(NextStatus().resent_episodes, 2);
   EXPECT_EQ(NextStatus().episodes, 8);
@@ -117,10 +120,8 @@ TEST_F(ActorOrders, ThatAreNotTheOnesFlownUnderTheirIndexAreFlown) {
   BeginRun();
   order_t other = OrderTo(kActorId, 0);
   other.epsilon = 1;
-  learner_.SendOrders({other});
-  FlyAll();
-  learner_.SendOrders(Orders(0, 1));
-  FlyAll();
+  SendAndFly({other});
+  SendAndFly(Orders(0, 1));
   ExpectEpisodes(1, {0});
 }
 
@@ -128,20 +129,14 @@ TEST_F(ActorOrders, OutsideOfTheWindowAreRefused) {
   BeginRun();  // the window is 16: with as many evaluations, 32 orders
   learner_.SendOrders({OrderTo(kActorId, 31), OrderTo(kActorId, 32), OrderTo(kActorId, 4000)});
   learner_.SendOrders({OrderTo(kActorId, 1)}, -1);
-  learner_.SendOrders({OrderTo(kActorId, 1)}, std::numeric_limits<int64_t>::max());
-  FlyAll();
+  SendAndFly({OrderTo(kActorId, 1)}, std::numeric_limits<int64_t>::max());
   ExpectEpisodes(0, {31});
   EXPECT_EQ(actor_.totals().rejected.total(), 4);
 }
 
 TEST_F(ActorOrders, ThatWaitedAreForgottenWhereTheWindowHasGoneBack) {
   BeginRun();
-  std::vector<order_t> orders = Orders(40, 4);
-  for (order_t& order : orders) {
-    order.current_version = 1;  // which is not here
-  }
-  learner_.SendOrders(orders, 40);
-  Step();
+  SendWaitingOrders(40, 40);
   actor_status_t status = NextStatus();
   EXPECT_EQ(status.open_orders, 4);
   EXPECT_EQ(status.oldest_open_order, 40);
@@ -164,41 +159,20 @@ TEST_F(ActorOrders, OfWhichTheOldestIsOpenAreReported) {
 
 TEST_F(ActorOrders, ThatAreCommittedAreNotFlown) {
   BeginRun();
-  learner_.SendOrders(Orders(0, 4), 2);
-  FlyAll();
+  SendAndFly(Orders(0, 4), 2);
   ExpectEpisodes(0, {2, 3});
+  EXPECT_EQ(actor_.totals().rejected.total(), 0);
 }
 
 TEST_F(ActorOrders, ThatWaitedAreForgottenOnceCommitted) {
   BeginRun();
-  std::vector<order_t> orders = Orders(0, 4);
-  for (order_t& order : orders) {
-    order.current_version = 1;  // which is not here
-  }
-  learner_.SendOrders(orders);
-  Step();
+  SendWaitingOrders(0, 0);
   EXPECT_EQ(NextStatus().open_orders, 4);
   learner_.SendOrders({}, 3);  // another actor has flown them
   EXPECT_EQ(NextStatus().open_orders, 1);
   learner_.SendVersion({NetworkKind::kCurrent, 1}, *current_);
   FlyAll();
   ExpectEpisodes(0, {3});
-}
-
-TEST_F(ActorOrders, ThatWereFlownAreForgottenOnceCommittedAndFlownAgainWithTheSameBits) {
-  BeginRun();
-  learner_.SendOrders(Orders(0, 3));
-  FlyAll();
-  learner_.SendOrders({}, 2);
-  Step(50'000);
-  learner_.SendOrders({OrderTo(kActorId, 0), OrderTo(kActorId, 2)}, 2);
-  FlyAll();
-  ExpectEpisodes(3, {2});  // order 2 was kept and is sent again, order 0 is done
-  learner_.SendOrders({OrderTo(kActorId, 0, 0), OrderTo(kActorId, 1, 0)}, 0);  // a late packet
-  FlyAll();
-  ExpectEpisodes(4, {0, 1});
-  EXPECT_EQ(NextStatus().episodes, 5);
-  EXPECT_EQ(NextStatus().resent_episodes, 1);
 }
 
 }  // namespace

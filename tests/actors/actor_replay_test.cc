@@ -27,9 +27,9 @@ class ActorReplay : public ActorTest {
     return NextStatus().run_id;
   }
 
-  /// As it was sent two seconds before.
+  /// As it was sent just too long before.
   void SendOld(const std::function<void()>& send) {
-    learner_.SetClock(kNow - 2 * kSecondUs);
+    learner_.SetClock(kNow - kStaleUs - 1);
     send();
     learner_.SetClock(kNow);
   }
@@ -69,9 +69,8 @@ TEST_F(ActorReplay, OfNetworksDisplacesNoneThatIsHeld) {
 }
 
 TEST_F(ActorReplay, IsToldFromALateMessage) {
-  learner_.SetClock(kNow - kSecondUs / 10);
-  learner_.SendOrders(Orders(0, 2));
-  FlyAll();
+  learner_.SetClock(kNow - kStaleUs);
+  SendAndFly(Orders(0, 2));
   ExpectEpisodes(0, {0, 1});
   EXPECT_EQ(actor_.totals().rejected.total(), 0);
 }
@@ -88,8 +87,7 @@ TEST_F(ActorReplay, IsNotHearingALearnerWhoseClockWasSetBackSoTheActorJoinsAgain
   EXPECT_LT(seconds, 20);
   learner_.SendVersion({NetworkKind::kCurrent, 0}, *current_);
   learner_.SendVersion({NetworkKind::kTarget, 0}, *target_);
-  learner_.SendOrders(Orders(0, 2));
-  FlyAll();
+  SendAndFly(Orders(0, 2));
   ExpectEpisodes(0, {0, 1});
 }
 

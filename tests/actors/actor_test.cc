@@ -61,8 +61,7 @@ TEST_F(ActorTest, HoldsOnToItsRunWhileAnotherIsAnnounced) {
 
 TEST_F(ActorTest, LeavesAFinishedRunAndServesTheNext) {
   BeginRun();
-  learner_.SendOrders(Orders(0, 2));
-  FlyAll();
+  SendAndFly(Orders(0, 2));
   learner_.AnnounceRun([](run_t& part) { part.finished = 1; });
   Step();
   EXPECT_FALSE(actor_.has_run());
@@ -170,8 +169,7 @@ TEST_F(ActorOfOneRunTest, ServesNoOtherRun) {
 TEST_F(ActorOfOneRunTest, PutsItsOwnCapacityAboveTheRuns) {
   BeginRun();
   EXPECT_EQ(NextStatus().capacity, 2);
-  learner_.SendOrders(Orders(0, 7));
-  FlyAll();
+  SendAndFly(Orders(0, 7));
   ExpectEpisodes(0, {0, 1, 2, 3, 4, 5, 6});
 }
 

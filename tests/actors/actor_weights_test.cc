@@ -39,8 +39,7 @@ TEST_F(ActorWeights, OfAnOrderMayArriveBeforeIt) {
   learner_.SendVersion(kTarget3, *target_);
   EXPECT_EQ(Plain(NextStatus().held),
             (Ranges{{1, 3, 0, chunks()}, {1, 0, 0, chunks()}, {0, 4, 0, chunks()}, {0, 0, 0, chunks()}}));
-  learner_.SendOrders({Newer(0)});
-  FlyAll();
+  SendAndFly({Newer(0)});
   ExpectEpisodes(0, {0});
 }
 

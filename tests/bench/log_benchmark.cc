@@ -6,17 +6,17 @@
 #include <lcm/lcm.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "logs/event_log_writer.h"
 #include "logs/log_summary.h"
 #include "logs/merged_event_logs.h"
+#include "tests/bench/share_reporter.h"
 #include "tests/msgs/message_samples.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -50,8 +50,7 @@ std::vector<std::byte> Status(RandomStream& stream, int64_t number, int64_t utim
 /// one of orders or a status. `transitions_only`: what has to be looked into most.
 class SampleLog {
  public:
-  explicit SampleLog(bool transitions_only)
-      : path_(std::filesystem::temp_directory_path() / ("fresco_log_benchmark_" + std::to_string(getpid()))) {
+  explicit SampleLog(bool transitions_only) {
     RandomStream stream(1, RandomPurpose::kTest, 0, 0);
     EventLogWriter writer(path_);
     const auto chunk = Stamped(WeightsOf(stream, kValuesPerChunk), 1);
@@ -73,11 +72,11 @@ class SampleLog {
     }
     writer.Flush();
   }
-  ~SampleLog() { std::filesystem::remove(path_); }
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_.path() / "log";
 };
 
 void CountBytes(benchmark::State& state, const SampleLog& log) {
@@ -131,51 +130,24 @@ BENCHMARK_CAPTURE(Read, transitions, true)->Unit(benchmark::kMillisecond)->UseRe
 BENCHMARK_CAPTURE(Info, transitions, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(LcmReader, transitions, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Prints the usual table, and keeps the shortest time of each benchmark for the shares.
-class ShareReporter : public benchmark::ConsoleReporter {
- public:
-  ShareReporter() : ConsoleReporter(OO_Tabular) {}
-
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.run_type == Run::RT_Iteration) {
-        const double seconds = run.real_accumulated_time / static_cast<double>(run.iterations);
-        const auto [found, is_new] = seconds_.try_emplace(run.run_name.function_name, seconds);
-        found->second = std::min(found->second, seconds);
-      }
+void PrintShares(const BenchmarkSeconds& all) {
+  for (const std::string log : {"run", "transitions"}) {
+    const auto read = all.find("Read/" + log);
+    const auto info = all.find("Info/" + log);
+    const auto lcm = all.find("LcmReader/" + log);
+    if (read != all.end() && info != all.end() && lcm != all.end()) {
+      std::printf(
+          "%-11s: log info goes at %.2f GB/s, %.0f %% of the speed of read() alone, %.1f times that of "
+          "LCM's reader\n",
+          log.c_str(), 1e-9 * static_cast<double>(kLogBytes) / info->second,
+          100 * read->second / info->second, lcm->second / info->second);
     }
   }
-
-  void PrintShares() const {
-    for (const std::string log : {"run", "transitions"}) {
-      const auto read = seconds_.find("Read/" + log);
-      const auto info = seconds_.find("Info/" + log);
-      const auto lcm = seconds_.find("LcmReader/" + log);
-      if (read != seconds_.end() && info != seconds_.end() && lcm != seconds_.end()) {
-        std::printf(
-            "%-11s: log info goes at %.2f GB/s, %.0f %% of the speed of read() alone, %.1f times that of "
-            "LCM's reader\n",
-            log.c_str(), 1e-9 * static_cast<double>(kLogBytes) / info->second,
-            100 * read->second / info->second, lcm->second / info->second);
-      }
-    }
-  }
-
- private:
-  std::map<std::string, double> seconds_;
-};
+}
 
 }  // namespace
 }  // namespace fresco
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    return 2;
-  }
-  fresco::ShareReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  reporter.PrintShares();
-  return 0;
+  return fresco::RunBenchmarks(argc, argv, fresco::PrintShares);
 }

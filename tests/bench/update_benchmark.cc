@@ -2,12 +2,11 @@
 // roof: the same matrix products by Eigen and nothing else. The share of the roof is printed last.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <map>
 #include <string>
 
 #include "core/random.h"
+#include "tests/bench/share_reporter.h"
 #include "training/dqn.h"
 #include "training/replay_memory.h"
 
@@ -94,47 +93,20 @@ BENCHMARK_CAPTURE(Products, dqn, 2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Update, double_dqn, true)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Products, double_dqn, 3)->Unit(benchmark::kMicrosecond);
 
-/// Prints the usual table, and keeps the shortest time of each benchmark for the shares.
-class ShareReporter : public benchmark::ConsoleReporter {
- public:
-  ShareReporter() : ConsoleReporter(OO_Tabular) {}
-
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.run_type == Run::RT_Iteration) {
-        const double seconds = run.real_accumulated_time / static_cast<double>(run.iterations);
-        const auto [found, is_new] = seconds_.try_emplace(run.run_name.function_name, seconds);
-        found->second = std::min(found->second, seconds);
-      }
+void PrintShares(const BenchmarkSeconds& all) {
+  for (const std::string name : {"dqn", "double_dqn"}) {
+    const auto update = all.find("Update/" + name);
+    const auto products = all.find("Products/" + name);
+    if (update != all.end() && products != all.end()) {
+      std::printf("%-10s: an update runs at %.0f %% of the speed of its matrix products alone\n",
+                  name.c_str(), 100 * products->second / update->second);
     }
   }
-
-  void PrintShares() const {
-    for (const std::string name : {"dqn", "double_dqn"}) {
-      const auto update = seconds_.find("Update/" + name);
-      const auto products = seconds_.find("Products/" + name);
-      if (update != seconds_.end() && products != seconds_.end()) {
-        std::printf("%-10s: an update runs at %.0f %% of the speed of its matrix products alone\n",
-                    name.c_str(), 100 * products->second / update->second);
-      }
-    }
-  }
-
- private:
-  std::map<std::string, double> seconds_;
-};
+}
 
 }  // namespace
 }  // namespace fresco
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
-    return 2;
-  }
-  fresco::ShareReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
-  reporter.PrintShares();
-  return 0;
+  return fresco::RunBenchmarks(argc, argv, fresco::PrintShares);
 }

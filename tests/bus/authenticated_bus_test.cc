@@ -1,4 +1,4 @@
-// Only what was made with the same key reaches a handler.
+// Only what was made with the same key reaches a handler, and no message uses the heap once the bus is warm.
 #include "bus/authenticated_bus.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/bus/text_messages.h"
+#include "tests/support/allocation_count.h"
 
 namespace fresco {
 namespace {
@@ -152,6 +153,43 @@ TEST_F(AuthenticatedBusTest, PublishesFromSeveralThreads) {
   EXPECT_EQ(heard_.size(), static_cast<size_t>(kThreads * kEach));
   EXPECT_EQ(receiver_->refused_messages(), 0);
 }
+
+#ifndef FRESCO_SANITIZED
+
+/// Hands every message to the one handler at once.
+class DirectBus : public Bus {
+ public:
+  bool Publish(const std::string&, std::span<const std::byte> message) override {
+    handler_(message);
+    return true;
+  }
+  void Subscribe(const std::string&, BusHandler handler, int) override { handler_ = std::move(handler); }
+  void SubscribeToAll(BusEventHandler) override {}
+  int Poll(int64_t, int) override { return 0; }
+
+ private:
+  BusHandler handler_;
+};
+
+TEST(AuthenticatedBusAllocations, DoNotHappenForAMessageOnceWarm) {
+  DirectBus direct;
+  const std::vector<std::byte> content(1318, std::byte{7});
+  const auto bus = MakeAuthenticatedBus(direct, AuthenticationKey(content));
+  const std::string channel = "A_CHANNEL_WITH_A_LONG_NAME";
+  size_t heard = 0;
+  bus->Subscribe(channel, [&](auto message) { heard += message.size(); });
+  bus->Publish(channel, content);
+  const int64_t before = AllocationCount();
+  for (int i = 0; i < 100; ++i) {
+    bus->Publish(channel, content);
+    direct.Publish(channel, content);  // refused
+  }
+  EXPECT_EQ(AllocationCount(), before);
+  EXPECT_EQ(heard, 101 * content.size());
+  EXPECT_EQ(bus->refused_messages(), 100);
+}
+
+#endif
 
 }  // namespace
 }  // namespace fresco

@@ -5,14 +5,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <string>
 
-#include "bus/authenticated_bus.h"
 #include "bus/open_bus.h"
-#include "core/error.h"
 #include "tests/bus/text_messages.h"
+#include "tests/support/error_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -21,33 +20,22 @@ using ::testing::HasSubstr;
 
 class KeyFiles : public ::testing::Test {
  protected:
-  KeyFiles() {
-    std::string pattern = std::filesystem::temp_directory_path() / "fresco-key-XXXXXX";
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~KeyFiles() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path Write(const std::string& content, mode_t mode = 0600) const {
-    std::filesystem::path path = folder_ / "run.key";
+    std::filesystem::path path = folder_.path() / "run.key";
     std::ofstream(path, std::ios::binary) << content;
     EXPECT_EQ(chmod(path.c_str(), mode), 0);
     return path;
   }
 
   static void ExpectRefused(const std::filesystem::path& path, const std::vector<std::string>& words) {
-    try {
-      ReadAuthenticationKey(path);
-      ADD_FAILURE() << path;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_status(), 2);
-      EXPECT_THAT(error.what(), HasSubstr("--key-file: " + path.string()));
-      for (const std::string& word : words) {
-        EXPECT_THAT(error.what(), HasSubstr(word));
-      }
+    const std::string error = ErrorOf([&] { ReadAuthenticationKey(path); });
+    EXPECT_THAT(error, HasSubstr("--key-file: " + path.string()));
+    for (const std::string& word : words) {
+      EXPECT_THAT(error, HasSubstr(word));
     }
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 std::vector<unsigned char> KeyOf(const std::filesystem::path& path) {
@@ -72,8 +60,8 @@ TEST_F(KeyFiles, DifferWithTheLastByte) {
 
 TEST_F(KeyFiles, AreRefusedWithTheCommandThatMakesOne) {
   const std::string command = "head -c 32 /dev/urandom > '";
-  ExpectRefused(folder_ / "none", {"No such file", command + (folder_ / "none").string()});
-  ExpectRefused(folder_, {"regular file", "directory", command});
+  ExpectRefused(folder_.path() / "none", {"No such file", command + (folder_.path() / "none").string()});
+  ExpectRefused(folder_.path(), {"regular file", "directory", command});
   ExpectRefused("", {"can't be read", command});
   ExpectRefused("/dev/null", {"regular file", command});
   ExpectRefused(Write(""), {"32 to 65536", "found 0", command});
@@ -82,7 +70,7 @@ TEST_F(KeyFiles, AreRefusedWithTheCommandThatMakesOne) {
 }
 
 TEST_F(KeyFiles, AreRefusedWhereAPipeWouldBeWaitedFor) {
-  const std::filesystem::path pipe = folder_ / "pipe";
+  const std::filesystem::path pipe = folder_.path() / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   ExpectRefused(pipe, {"regular file", "pipe"});
 }
@@ -109,7 +97,7 @@ TEST_F(KeyFiles, OpenABusWithTheirKey) {
   EXPECT_EQ(heard, 1);
   EXPECT_EQ(heard_twice, 1);
   EXPECT_EQ(bus->refused_messages() + same->refused_messages(), 0);
-  EXPECT_THROW(OpenBus("memq://", {.key_file = folder_ / "none"}), Error);
+  EXPECT_THROW(OpenBus("memq://", {.key_file = folder_.path() / "none"}), Error);
 }
 
 }  // namespace

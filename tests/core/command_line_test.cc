@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "tests/support/error_of.h"
 
 namespace fresco {
 namespace {
@@ -39,13 +39,7 @@ struct Commands {
 };
 
 std::string WrongUse(const std::vector<const char*>& arguments) {
-  try {
-    Commands().Parse(arguments);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    return error.what();
-  }
-  return "accepted";
+  return ErrorOf([&] { Commands().Parse(arguments); });
 }
 
 TEST(CommandLine, IsParsed) {

@@ -1,3 +1,4 @@
+// Files and folders, and the tables in CSV files.
 #include "core/files.h"
 
 #include <gmock/gmock.h>
@@ -5,10 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <functional>
+#include <cstdlib>
 #include <optional>
 
-#include "core/error.h"
+#include "core/csv.h"
+#include "tests/support/error_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -19,33 +22,19 @@ using testing::HasSubstr;
 
 class FilesTest : public ::testing::Test {
  protected:
-  FilesTest()
-      : directory_(std::filesystem::temp_directory_path() / ("fresco-files-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(directory_);
-  }
-  ~FilesTest() override {
-    std::filesystem::permissions(directory_, std::filesystem::perms::owner_all);
-    std::filesystem::remove_all(directory_);
-  }
+  ~FilesTest() override { std::filesystem::permissions(directory_, std::filesystem::perms::owner_all); }
 
-  Path directory_;
+  const TemporaryFolder folder_;
+  const Path& directory_ = folder_.path();
 };
 
 class AtomicFile : public FilesTest {};
 class FolderLockTest : public FilesTest {};
+class OutputFolderTest : public FilesTest {};
 
-class OutputFolderTest : public FilesTest {
- protected:
-  static std::string Refusal(const Path& folder) {
-    try {
-      CheckOutputFolder(folder, "--folder");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-      return error.what();
-    }
-    return "accepted";
-  }
-};
+std::string RefusalOf(const Path& folder) {
+  return ErrorOf([&] { CheckOutputFolder(folder, "--folder"); });
+}
 
 TEST_F(AtomicFile, ReadsBackWhatWasWritten) {
   const std::string content("a\0b\n", 4);
@@ -70,30 +59,24 @@ TEST_F(AtomicFile, LeavesWhatWasThereWhereTheLastStepFails) {
 
 TEST_F(AtomicFile, NamesThePathThatCannotBeReadOrWritten) {
   const auto missing = directory_ / "absent" / "file";
-  for (const auto& call : {std::function<void()>([&] { ReadFile(missing); }),
-                           std::function<void()>([&] { WriteFileAtomically(missing, "x"); }),
-                           std::function<void()>([&] { ReadFile(directory_); })}) {
-    try {
-      call();
-      FAIL() << "no error";
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find(directory_.string()), std::string::npos) << error.what();
-    }
-  }
+  EXPECT_THAT(ErrorOf([&] { ReadFile(missing); }), HasSubstr(directory_.string()));
+  EXPECT_THAT(ErrorOf([&] { ReadFile(directory_); }), HasSubstr(directory_.string()));
+  EXPECT_THAT(ErrorOf([&] { WriteFileAtomically(missing, "x"); }, ErrorKind::kFailure),
+              HasSubstr(directory_.string()));
 }
 
 TEST_F(OutputFolderTest, IsThereOrCanBeMadeAndIsNotMadeByTheCheck) {
-  EXPECT_EQ(Refusal(directory_), "accepted");
-  EXPECT_EQ(Refusal(directory_ / "a" / "b" / ""), "accepted");
-  EXPECT_EQ(Refusal(std::filesystem::relative(directory_ / "a")), "accepted");
+  EXPECT_NO_THROW(CheckOutputFolder(directory_, "--folder"));
+  EXPECT_NO_THROW(CheckOutputFolder(directory_ / "a" / "b" / "", "--folder"));
+  EXPECT_NO_THROW(CheckOutputFolder(std::filesystem::relative(directory_ / "a"), "--folder"));
   EXPECT_TRUE(std::filesystem::is_empty(directory_));
 }
 
 TEST_F(OutputFolderTest, CanNotBeBelowAFile) {
   WriteFileAtomically(directory_ / "file", "not a folder");
   for (const Path& folder : {directory_ / "file", directory_ / "file" / "run"}) {
-    EXPECT_THAT(Refusal(folder), AllOf(HasSubstr("--folder"), HasSubstr(folder.string()),
-                                       HasSubstr((directory_ / "file").string() + " is not a folder")));
+    EXPECT_THAT(RefusalOf(folder), AllOf(HasSubstr("--folder"), HasSubstr(folder.string()),
+                                         HasSubstr((directory_ / "file").string() + " is not a folder")));
   }
 }
 
@@ -103,18 +86,13 @@ TEST_F(OutputFolderTest, IsRefusedWhereThisUserMayNotWrite) {
   }
   std::filesystem::permissions(directory_, std::filesystem::perms::owner_read);
   for (const Path& folder : {directory_, directory_ / "run"}) {
-    EXPECT_THAT(Refusal(folder), AllOf(HasSubstr(folder.string()), HasSubstr("Permission denied")));
+    EXPECT_THAT(RefusalOf(folder), AllOf(HasSubstr(folder.string()), HasSubstr("Permission denied")));
   }
 }
 
 TEST_F(FolderLockTest, LetsOneInAtATime) {
   std::optional<FolderLock> first(directory_);
-  try {
-    const FolderLock second(directory_);
-    FAIL() << "let a second one in";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(directory_.string()), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(ErrorOf([&] { FolderLock{directory_}; }), HasSubstr(directory_.string()));
   first.reset();
   const FolderLock third(directory_);
 }
@@ -141,6 +119,32 @@ TEST_F(FolderLockTest, EndsWithItsProcessHoweverThatEnds) {
 
 TEST_F(FolderLockTest, NamesAFolderThatIsNotThere) {
   EXPECT_THROW(FolderLock{directory_ / "absent"}, Error);
+}
+
+TEST(Csv, QuotesOnlyWhatHasToBeQuoted) {
+  // RFC 4180, section 2, rules 5 to 7.
+  EXPECT_EQ(CsvText({"policy", "note"}, {{"DQN", "plain text"}, {"a,b", "say \"no\""}, {"two\nlines", ""}}),
+            "policy,note\nDQN,plain text\n\"a,b\",\"say \"\"no\"\"\"\n\"two\nlines\",\n");
+}
+
+TEST(Csv, KeepsEveryBitOfANumber) {
+  const double awkward[] = {0.1 + 0.2, 1.0 / 3, 13.280952380952381, -2.5e-300, 6.02214076e23};
+  for (const double value : awkward) {
+    const std::string text = CsvText({"value"}, {{value}});
+    EXPECT_EQ(std::strtod(text.c_str() + sizeof("value"), nullptr), value) << text;
+  }
+  EXPECT_EQ(CsvText({"count", "value"}, {{int64_t{9007199254740993}, 0.5}}),
+            "count,value\n9007199254740993,0.5\n");
+}
+
+TEST(Csv, WritesTheFile) {
+  const TemporaryFolder folder;
+  WriteCsv(folder.path() / "table.csv", {"radius"}, {{1}, {2.5}});
+  EXPECT_EQ(ReadFile(folder.path() / "table.csv"), "radius\n1\n2.5\n");
+}
+
+TEST(CsvDeathTest, RefusesARowOfAnotherLength) {
+  EXPECT_DEATH(CsvText({"a", "b"}, {{1}}), "header");
 }
 
 }  // namespace

@@ -8,8 +8,9 @@
 
 #include <fstream>
 
-#include "core/error.h"
+#include "tests/support/error_of.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -22,12 +23,8 @@ constexpr int64_t kGib = int64_t{1} << 30;
 class AvailableMemoryTest : public ::testing::Test {
  protected:
   AvailableMemoryTest() {
-    root_ = std::filesystem::path(testing::TempDir()) /
-            testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(root_);
     Write("proc/meminfo", "MemTotal: 67108864 kB\nMemFree: 1024 kB\nMemAvailable: 33554432 kB\n");
   }
-  ~AvailableMemoryTest() override { std::filesystem::remove_all(root_); }
 
   void Write(const std::string& file, const std::string& text) const {
     std::filesystem::create_directories((root_ / file).parent_path());
@@ -35,7 +32,8 @@ class AvailableMemoryTest : public ::testing::Test {
   }
   MemoryLimit Host() const { return ReadAvailableMemory(root_).host; }
 
-  std::filesystem::path root_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path& root_ = folder_.path();
 };
 
 TEST_F(AvailableMemoryTest, IsWhatTheKernelSaysWithoutControlGroups) {
@@ -119,18 +117,12 @@ AvailableMemory Available(int64_t host, int64_t process) {
 }
 
 std::string RefusalWith(const AvailableMemory& available) {
-  try {
-    RefuseIfTooLarge(Needs(), available);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_status(), 2);
-    return error.what();
-  }
-  return "";
+  return ErrorOf([&] { RefuseIfTooLarge(Needs(), available); });
 }
 
 TEST(MemoryNeed, OfSeveralProcessesIsTheSumOfAllTheirParts) {
   EXPECT_EQ(Needs().front().bytes(), 6009 * kMega);
-  EXPECT_EQ(RefusalWith(Available(6309 * kMega, 6009 * kMega)), "");
+  EXPECT_NO_THROW(RefuseIfTooLarge(Needs(), Available(6309 * kMega, 6009 * kMega)));
   EXPECT_NE(RefusalWith(Available(6309 * kMega - 1, 6009 * kMega)), "");
   EXPECT_NE(RefusalWith(Available(6309 * kMega, 6009 * kMega - 1)), "");
 }

@@ -11,8 +11,7 @@
 #include "msgs/versions_in_flight.h"
 #include "storage/checkpoint_file.h"
 #include "tests/support/heap_use.h"
-#include "tests/support/sanitized.h"
-#include "tests/training/recorded_run.h"
+#include "tests/training/literal_run.h"
 #include "training/dqn.h"
 #include "training/ledger.h"
 #include "training/replay_memory.h"
@@ -29,14 +28,7 @@ void ExpectNear(int64_t measured, int64_t foretold, double tolerance = kMemoryTo
               tolerance * static_cast<double>(measured));
 }
 
-class LearnerMemoryTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (kSanitized) {
-      GTEST_SKIP() << "a sanitizer has a heap of its own";
-    }
-  }
-};
+using LearnerMemoryTest = HeapUseTest;
 
 TEST_F(LearnerMemoryTest, OfTheReplayMemoryAndItsActionsIsForetold) {
   ExpectNear(HeapUseOf([] { return std::make_unique<ReplayMemory>(25, 45, 10'000); }),

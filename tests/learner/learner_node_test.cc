@@ -8,6 +8,7 @@
 
 #include "core/clock.h"
 #include "msgs/protocol_times.h"
+#include "tests/msgs/message_samples.h"
 #include "tests/training/literal_run.h"
 
 namespace fresco {
@@ -42,9 +43,7 @@ class LearnerNodeTest : public ::testing::Test {
     status.host = "there";
     status.oldest_open_order = -1;
     status.arithmetic_fingerprint = ArithmeticFingerprint();
-    std::vector<std::byte> bytes;
-    Encode(status, bytes);
-    bus_->Publish(channels_.actor_status, bytes);
+    bus_->Publish(channels_.actor_status, Encoded(status));
   }
 
   Experiment experiment_;
@@ -102,9 +101,7 @@ TEST_F(LearnerNodeTest, CountsTheAnnouncementsOfOtherRunsOnly) {
     run_t other{};
     other.run_id = run_id;
     other.utime = WallMicroseconds();
-    std::vector<std::byte> bytes;
-    Encode(other, bytes);
-    bus_->Publish(channels_.run, bytes);
+    bus_->Publish(channels_.run, Encoded(other));
     NextStatus();
     EXPECT_EQ(node_.foreign_run(), run_id);
   }
@@ -119,9 +116,7 @@ TEST_F(LearnerNodeTest, TakesAnAnnouncementThatIsNotOfNowForNoRunThatGoesOn) {
       run_t recorded{};
       recorded.run_id = run_id;
       recorded.utime = WallMicroseconds() + later_us;
-      std::vector<std::byte> bytes;
-      Encode(recorded, bytes);
-      bus_->Publish(channels_.run, bytes);
+      bus_->Publish(channels_.run, Encoded(recorded));
     }
   }
   EXPECT_EQ(bus_->Poll(1'000'000), 4);

@@ -10,11 +10,54 @@
 #include "bus/lossy_bus.h"
 #include "core/clock.h"
 #include "learner/learner_node.h"
-#include "tests/learner/forger.h"
+#include "msgs/message_bus.h"
+#include "msgs/order.h"
 #include "tests/training/literal_run.h"
 
 namespace fresco {
 namespace {
+
+/// Somebody on the network who has no key: reads every order and answers it at once, before any actor, with
+/// an episode that is possible but not the one that was ordered. Nothing in it gives it away.
+class Forger {
+ public:
+  /// Subscribes on `bus`, which like `world` and `experiment` must outlive the forger.
+  Forger(const Experiment& experiment, const World& world, Bus& bus, const Channels& channels);
+
+ private:
+  void Answer(const orders_t& message);
+
+  const Experiment* experiment_;
+  const World* world_;
+  Bus* bus_;
+  Channels channels_;
+};
+
+Forger::Forger(const Experiment& experiment, const World& world, Bus& bus, const Channels& channels)
+    : experiment_(&experiment), world_(&world), bus_(&bus), channels_(channels) {
+  bus.Subscribe(channels.orders, [this](std::span<const std::byte> bytes) {
+    orders_t message{};
+    if (Decode(bytes, message) || (bytes.size() > kAuthenticationTagBytes &&
+                                   Decode(bytes.first(bytes.size() - kAuthenticationTagBytes), message))) {
+      Answer(message);
+    }
+  });
+}
+
+void Forger::Answer(const orders_t& message) {
+  const auto zero =
+      std::make_shared<const Vector>(Vector::Zero(experiment_->network_shape().parameter_count()));
+  for (const order_t& wire : message.orders) {
+    Order order;
+    if (FromWire(wire, order)) {
+      order.epsilon = 1;
+      SplitResult(*world_, FlyOrder(*world_, *experiment_, order, zero, zero), wire.actor_id,
+                  [&](const transitions_t& part) {
+                    MessageBus(*bus_).Publish(channels_.transitions, part, IdentityOf(message));
+                  });
+    }
+  }
+}
 
 constexpr int64_t kWholeRunId = 77;
 

@@ -1,23 +1,19 @@
 // LCM's own library reads what was written.
 #include "logs/event_log_writer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
-#include "core/error.h"
+#include "core/files.h"
 #include "tests/logs/event_log_files.h"
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
 
-std::string ContentOf(const std::filesystem::path& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str();
-}
+using testing::AllOf;
+using testing::HasSubstr;
 
 TEST(EventLogWriter, WritesWhatLcmReads) {
   const TemporaryFolder folder;
@@ -28,7 +24,7 @@ TEST(EventLogWriter, WritesWhatLcmReads) {
   }
   writer.Flush();
   EXPECT_EQ(ReadWithLcm(folder.path() / "log"), events);
-  EXPECT_EQ(ContentOf(folder.path() / "log"), LogBytes(events));
+  EXPECT_EQ(ReadFile(folder.path() / "log"), LogBytes(events));
   EXPECT_EQ(writer.events(), 300);
   EXPECT_EQ(writer.bytes(), static_cast<int64_t>(LogBytes(events).size()));
   EXPECT_EQ(writer.files(), 1);
@@ -59,26 +55,15 @@ TEST(EventLogWriter, NeverWritesOverAFile) {
   const TemporaryFolder folder;
   for (const auto& [name, split_bytes] : {std::pair("log", 0), std::pair("log.00", 1000)}) {
     WriteBytes(folder.path() / name, "precious");
-    try {
-      EventLogWriter writer(folder.path() / "log", split_bytes);
-      FAIL() << "no error";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
-    }
-    EXPECT_EQ(ContentOf(folder.path() / name), "precious");
+    EXPECT_THAT(ErrorOf([&, bytes = split_bytes] { EventLogWriter(folder.path() / "log", bytes); }),
+                HasSubstr(name));
+    EXPECT_EQ(ReadFile(folder.path() / name), "precious");
   }
 }
 
 TEST(EventLogWriter, NamesAFolderThatIsNotThere) {
-  try {
-    EventLogWriter writer("/nonexistent/folder/log");
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_NE(std::string(error.what()).find("/nonexistent/folder/log"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos);
-  }
+  EXPECT_THAT(ErrorOf([] { EventLogWriter("/nonexistent/folder/log"); }),
+              AllOf(HasSubstr("/nonexistent/folder/log"), HasSubstr("No such file")));
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // Which events the subcommands of `fresco log` select.
 #include "logs/event_selection.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "tests/msgs/message_samples.h"
+#include "tests/support/error_of.h"
 
 namespace fresco {
 namespace {
@@ -38,14 +39,10 @@ TEST(EventSelection, DropsOtherRunsOnly) {
 }
 
 TEST(ChannelFilter, NamesTheOptionOfWhatIsNoExpression) {
-  try {
-    ChannelFilter({"A", "FRESCO_["}, "--channel");
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_NE(std::string(error.what()).find("--channel"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("FRESCO_["), std::string::npos);
-  }
+  EXPECT_THAT(ErrorOf([] {
+                ChannelFilter({"A", "FRESCO_["}, "--channel");
+              }),
+              testing::AllOf(testing::HasSubstr("--channel"), testing::HasSubstr("FRESCO_[")));
 }
 
 }  // namespace

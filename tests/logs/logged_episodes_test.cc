@@ -22,13 +22,13 @@ using Ranges = std::vector<Interval>;
 
 class LoggedEpisodesTest : public testing::Test {
  protected:
-  LoggedEpisodesTest() {
-    live_.Finish();
-    events_ = EventsOf(live_, Identity(live_));
-  }
-
   LoggedEpisodes Open(const LogPaths& paths, std::optional<AuthenticationKey> key = {}) const {
     return {{paths, std::move(key)}, Identity(live_), live_.world, live_.experiment.mask_options()};
+  }
+
+  LoggedEpisodes OpenLogOf(const std::vector<OwnedEvent>& events) const {
+    WriteLog(folder_.path() / "log", events);
+    return Open({folder_.path() / "log"});
   }
 
   /// Removes the transitions of these orders.
@@ -40,13 +40,12 @@ class LoggedEpisodesTest : public testing::Test {
   }
 
   const TemporaryFolder folder_;
-  RecordedRun live_;
-  std::vector<OwnedEvent> events_;
+  const FinishedRun live_;
+  std::vector<OwnedEvent> events_ = EventsOf(live_, Identity(live_));
 };
 
 TEST_F(LoggedEpisodesTest, HandsOutTheEpisodesThatWereFlown) {
-  WriteLog(folder_.path() / "log", events_);
-  LoggedEpisodes episodes = Open({folder_.path() / "log"});
+  LoggedEpisodes episodes = OpenLogOf(events_);
   ASSERT_EQ(episodes.whole().size(), live_.episodes.size());
   for (size_t i = 3; i < live_.episodes.size(); i += 2) {
     const Episode episode = episodes.Take(static_cast<int64_t>(i));
@@ -59,8 +58,7 @@ TEST_F(LoggedEpisodesTest, HandsOutTheEpisodesThatWereFlown) {
 
 TEST_F(LoggedEpisodesTest, NamesWhatIsMissingAsRanges) {
   Remove({0, 1, 2, 10, 20, 21});
-  WriteLog(folder_.path() / "log", events_);
-  const LoggedEpisodes episodes = Open({folder_.path() / "log"});
+  const LoggedEpisodes episodes = OpenLogOf(events_);
   EXPECT_EQ(episodes.Missing(), (Ranges{{0, 2}, {10, 10}, {20, 21}}));
 }
 
@@ -150,15 +148,13 @@ TEST_F(LoggedEpisodesTest, HoldsNoMoreThanBoundedPiecesWhateverTheLogHolds) {
     Encode(message, flood[i].message);
   }
   flood.insert(flood.end(), events_.begin(), events_.end());
-  WriteLog(folder_.path() / "log", flood);
-  LoggedEpisodes episodes = Open({folder_.path() / "log"});
+  LoggedEpisodes episodes = OpenLogOf(flood);
   EXPECT_EQ(episodes.Missing(), Ranges{});
   EXPECT_EQ(episodes.Take(30).actions, live_.episodes[30].actions);
 }
 
 TEST_F(LoggedEpisodesTest, KnowsTheNetworksByTheirCrc) {
-  WriteLog(folder_.path() / "log", events_);
-  const LoggedEpisodes episodes = Open({folder_.path() / "log"});
+  const LoggedEpisodes episodes = OpenLogOf(events_);
   const Vector& last = *live_.current_versions.back();
   const auto version = static_cast<int32_t>(live_.current_versions.size() - 1);
   EXPECT_EQ(episodes.WeightsCrc(NetworkKind::kCurrent, version),

@@ -23,8 +23,6 @@ bool IsTransitions(const OwnedEvent& event) {
 
 class RetrainingTest : public testing::Test {
  protected:
-  RetrainingTest() { live_.Finish(); }
-
   /// Trains from a log of these events to the end.
   std::unique_ptr<Retraining> Retrain(const std::vector<OwnedEvent>& events, const Experiment& experiment,
                                       Use use = Use::kSameRun, bool strict = false) {
@@ -52,7 +50,7 @@ class RetrainingTest : public testing::Test {
   int64_t orders() const { return static_cast<int64_t>(live_.orders.size()); }
 
   const TemporaryFolder folder_;
-  RecordedRun live_;
+  const FinishedRun live_;
   std::unique_ptr<LoggedEpisodes> episodes_;
   std::vector<Evaluation> evaluations_;
 };
@@ -155,8 +153,7 @@ TEST_F(RetrainingTest, GivesExperienceToTrainingOrdersInTheirOrder) {
 }
 
 TEST_F(RetrainingTest, LeavesOutExperienceThatItsMasksForbid) {
-  RecordedRun unmasked(Settings{{"agent.coverage_mask", "false"}});
-  unmasked.Finish();
+  FinishedRun unmasked(Settings{{"agent.coverage_mask", "false"}});
   const auto path = folder_.path() / "log";
   WriteLog(path, EventsOf(unmasked, Identity(unmasked)));
   LoggedEpisodes episodes({{path}}, Identity(unmasked), unmasked.world, unmasked.experiment.mask_options());

@@ -5,6 +5,7 @@
 #include "core/bytes.h"
 #include "logs/event_log_writer.h"
 #include "msgs/weights_codec.h"
+#include "tests/msgs/message_samples.h"
 
 namespace fresco {
 namespace {
@@ -16,12 +17,7 @@ class Events {
   template <class Message>
   void Add(const std::string& channel, Message message) {
     Stamp(message, identity_, utime_);
-    std::vector<std::byte> bytes;
-    Encode(message, bytes);
-    AddBytes(channel, std::move(bytes));
-  }
-  void AddBytes(const std::string& channel, std::vector<std::byte> bytes) {
-    events_.push_back({utime_, channel, std::move(bytes)});
+    events_.push_back({utime_, channel, Encoded(message)});
     utime_ += 1000;
   }
   std::vector<OwnedEvent> events() && { return std::move(events_); }
@@ -31,22 +27,6 @@ class Events {
   int64_t utime_ = 1'700'000'000'000'000;
   std::vector<OwnedEvent> events_;
 };
-
-void AddConfiguration(const std::string& text, Events& events) {
-  const size_t part_size = kMaximumPartBytes;
-  const size_t parts = (text.size() + part_size - 1) / part_size;
-  for (size_t part = 0; part < parts; ++part) {
-    const std::string content = text.substr(part * part_size, part_size);
-    run_t message{};
-    message.part_size = static_cast<int32_t>(content.size());
-    message.part.assign(content.begin(), content.end());
-    message.part_index = static_cast<int32_t>(part);
-    message.part_count = static_cast<int32_t>(parts);
-    message.protocol_version = kProtocolVersion;
-    message.arithmetic_fingerprint = ArithmeticFingerprint();
-    events.Add("FRESCO_RUN", message);
-  }
-}
 
 void AddVersions(const std::string& channel, const std::vector<std::shared_ptr<const Vector>>& versions,
                  Events& events) {
@@ -60,7 +40,9 @@ void AddVersions(const std::string& channel, const std::vector<std::shared_ptr<c
 
 std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity) {
   Events events(identity);
-  AddConfiguration(run.experiment.Text(), events);
+  for (const run_t& part : Announcement(run.experiment.Text(), kMaximumPartBytes)) {
+    events.Add("FRESCO_RUN", part);
+  }
   AddVersions("FRESCO_WEIGHTS_CURRENT", run.current_versions, events);
   AddVersions("FRESCO_WEIGHTS_TARGET", run.target_versions, events);
   for (size_t i = 0; i < run.episodes.size(); ++i) {

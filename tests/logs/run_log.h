@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/training/recorded_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 

@@ -1,18 +1,9 @@
 #include "msgs/experiment.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "tests/msgs/usage_error.h"
 
 namespace fresco {
 namespace {
-
-using ::testing::HasSubstr;
-
-std::string ErrorWith(const std::string& text, const Settings& settings = {}) {
-  return UsageErrorOf([&] { Experiment::Parse(text, "file.textproto", settings); });
-}
 
 TEST(Experiment, TakesTablesIAndIIWhereNothingIsSaid) {
   const Experiment experiment = Experiment::Parse("", "nothing");
@@ -73,48 +64,6 @@ TEST(Experiment, HashIsThatOfWhatDecidesTheWeights) {
                                  "schedule { ladder {} }", "scenario { sensor { x_m: 1 y_m: 2 } }"}) {
     EXPECT_NE(Experiment::Parse(text, "a").hash(), hash) << text;
   }
-}
-
-TEST(Experiment, TakesSettingsByPath) {
-  const Experiment experiment =
-      Experiment::Parse("scenario { sensor { x_m: 1 y_m: 2 } sensor { x_m: 3 y_m: 4 } }", "a",
-                        {{"schedule.seed", "9"},
-                         {"agent.hidden_layers", "32,16"},
-                         {"scenario.sensor[1].x_m", "50"},
-                         {"agent.linear.final", "1e-6"},
-                         {"run.channel_prefix", "OTHER"}});
-  EXPECT_EQ(experiment.schedule().seed(), 9u);
-  EXPECT_EQ(experiment.network_shape().layer_sizes(), (std::vector<int>{6, 32, 16, 15}));
-  EXPECT_EQ(experiment.scenario().sensors[1].x_m, 50);
-  EXPECT_EQ(experiment.agent().linear().final(), 1e-6);
-  EXPECT_EQ(experiment.run().channel_prefix(), "OTHER");
-}
-
-TEST(Experiment, NamesWhatIsWrongInAFile) {
-  EXPECT_THAT(ErrorWith("scenario {\n  slotz: 3 }"), HasSubstr("file.textproto:2:"));
-  EXPECT_THAT(ErrorWith("scenario {\n  slotz: 3 }"), HasSubstr("slotz"));
-  EXPECT_EQ(ErrorWith("agent { batch_size: 0 }"),
-            "file.textproto: agent.batch_size: 0 is out of range; allowed: 1 to 65536");
-  EXPECT_THAT(ErrorWith("agent { hidden_layers: [8, 0] }"),
-              HasSubstr("agent.hidden_layers[1]: 0 is out of range"));
-  EXPECT_THAT(ErrorWith("agent { discount: nan }"), HasSubstr("agent.discount: nan is out of range"));
-  EXPECT_THAT(ErrorWith("scenario { slots: 1 }"), HasSubstr("file.textproto: scenario.slots"));
-  EXPECT_THAT(ErrorWith("scenario { sensor { x_m: 1 y_m: 1 } random_sensors { count: 2 } }"),
-              HasSubstr("contradict"));
-  EXPECT_THAT(ErrorWith("scenario { coverage_radius_m: 9 transmit_power_w: 1 }"),
-              HasSubstr("transmit_power_w"));
-  EXPECT_THAT(ErrorWith("scenario { random_sensors { count: 251 } }"),
-              HasSubstr("random_sensors.count: 251"));
-  EXPECT_THAT(ErrorWith("scenario { slots: 15 }"), HasSubstr("scenario."));
-  EXPECT_THAT(ErrorWith("scenario { initial_energy_j: 10 }"), HasSubstr("initial_energy_j"));
-}
-
-TEST(Experiment, NamesWhatIsWrongInASetting) {
-  EXPECT_THAT(ErrorWith("", {{"agent.batchsize", "3"}}), HasSubstr("batch_size"));
-  EXPECT_THAT(ErrorWith("", {{"agent.batch_size", "many"}}), HasSubstr("\"many\""));
-  EXPECT_THAT(ErrorWith("", {{"agent", "3"}}), HasSubstr("--set agent"));
-  EXPECT_THAT(ErrorWith("", {{"scenario.sensor[0].x_m", "3"}}), HasSubstr("no such index"));
-  EXPECT_THAT(ErrorWith("", {{"scenario.sensor[x].x_m", "3"}}), HasSubstr("name[index]"));
 }
 
 }  // namespace

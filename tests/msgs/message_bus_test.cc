@@ -18,6 +18,12 @@ AuthenticationKey KeyFrom(const std::string& secret) {
   return AuthenticationKey(std::as_bytes(std::span(secret)));
 }
 
+template <class AnyBus>
+void PollAll(AnyBus& bus) {
+  while (bus.Poll(0) > 0) {
+  }
+}
+
 /// A program's side of the bus.
 class Program {
  public:
@@ -39,8 +45,7 @@ class KeyMismatchTest : public ::testing::Test {
   void Publish(Bus& bus) {
     RandomStream stream(1, RandomPurpose::kTest, 0, 0);
     bus.Publish("A", Encoded(OrdersOf(stream, 3)));
-    while (bus_->Poll(0) > 0) {
-    }
+    PollAll(*bus_);
   }
 
   std::unique_ptr<Bus> bus_ = OpenLcmBus("memq://");
@@ -92,8 +97,7 @@ TEST_F(KeyMismatchTest, IsNotSuspectedInRubbish) {
   for (const size_t size : {0, 1, 31, 32, 36, 37, 100, 1350, 5000}) {
     bus_->Publish("A", std::vector<std::byte>(size, std::byte{7}));
   }
-  while (bus_->Poll(0) > 0) {
-  }
+  PollAll(*bus_);
   EXPECT_EQ(program.decoded, 0);
   EXPECT_EQ(program.malformed(), 10);
   EXPECT_THAT(program.Reason(), IsEmpty());
@@ -110,8 +114,7 @@ TEST(MessageBus, HandsOutWhatWasSentWithItsRunAndTheTimeOfSending) {
   const int64_t before = WallMicroseconds();
   EXPECT_TRUE(sender.Publish("A", sent, {77, 0xfeedu}));
   EXPECT_TRUE(sender.Publish("B", sent, {77, 0xfeedu}));
-  while (receiver.Poll(0) > 0) {
-  }
+  PollAll(receiver);
   ASSERT_EQ(received.size(), 1u);
   EXPECT_EQ(IdentityOf(received[0]), (RunIdentity{77, 0xfeedu}));
   EXPECT_GE(received[0].utime, before);

@@ -95,8 +95,7 @@ TEST(Description, KnowsWhereLcmWritesAField) {
   learner_status_t message{};
   message.optimum_proved = 0x5A;
   message.reordered_episodes = 0x0123456789ABCDEF;
-  std::vector<std::byte> bytes;
-  Encode(message, bytes);
+  const std::vector<std::byte> bytes = Encoded(message);
   EXPECT_EQ(bytes[Description<learner_status_t>::optimum_proved_offset], std::byte{0x5A});
   EXPECT_EQ(ReadBigEndian<uint64_t>(&bytes[Description<learner_status_t>::reordered_episodes_offset]),
             0x0123456789ABCDEFu);

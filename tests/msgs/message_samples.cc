@@ -5,6 +5,8 @@
 #include <string>
 #include <type_traits>
 
+#include "nn/mlp.h"
+
 namespace fresco {
 namespace {
 
@@ -86,6 +88,20 @@ run_t RunOf(RandomStream& stream, int part_bytes) {
   message.part_size = part_bytes;
   Fill(stream, message.part, part_bytes);
   return message;
+}
+
+std::vector<run_t> Announcement(const std::string& configuration, size_t part_bytes) {
+  std::vector<run_t> parts((configuration.size() + part_bytes - 1) / part_bytes);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const std::string part = configuration.substr(i * part_bytes, part_bytes);
+    parts[i].part_index = static_cast<int32_t>(i);
+    parts[i].part_count = static_cast<int32_t>(parts.size());
+    parts[i].part_size = static_cast<int32_t>(part.size());
+    parts[i].part.assign(part.begin(), part.end());
+    parts[i].protocol_version = kProtocolVersion;
+    parts[i].arithmetic_fingerprint = ArithmeticFingerprint();
+  }
+  return parts;
 }
 
 transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -57,6 +58,9 @@ actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int ho
 learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length);
 scenario_t ScenarioOf(RandomStream& stream, int sensors);
 flight_t FlightOf(RandomStream& stream, int sensors, int policy_length);
+
+/// A configuration as a learner announces it, in parts of at most so many bytes.
+std::vector<run_t> Announcement(const std::string& configuration, size_t part_bytes);
 
 /// The result of an order whose episode takes random actions among those that `mask` allows. It records
 /// masks that allow everything.

@@ -3,13 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
-#include <filesystem>
-
 #include "core/files.h"
 #include "msgs/experiment.h"
-#include "tests/msgs/usage_error.h"
+#include "tests/support/error_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -23,19 +20,11 @@ const std::filesystem::path kReadyFolder = std::filesystem::path(FRESCO_SOURCE_D
 /// In a folder without any file, as somebody is who uses an installation.
 class ReadyExperimentsTest : public ::testing::Test {
  protected:
-  ReadyExperimentsTest()
-      : before_(std::filesystem::current_path()),
-        directory_(std::filesystem::temp_directory_path() / ("fresco-ready-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(directory_);
-    std::filesystem::current_path(directory_);
-  }
-  ~ReadyExperimentsTest() override {
-    std::filesystem::current_path(before_);
-    std::filesystem::remove_all(directory_);
-  }
+  ReadyExperimentsTest() { std::filesystem::current_path(folder_.path()); }
+  ~ReadyExperimentsTest() override { std::filesystem::current_path(before_); }
 
-  std::filesystem::path before_;
-  std::filesystem::path directory_;
+  const std::filesystem::path before_ = std::filesystem::current_path();
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ReadyExperimentsTest, AreThoseOfTheSourceTree) {
@@ -58,11 +47,11 @@ TEST_F(ReadyExperimentsTest, StandBackForAPathThatExists) {
 }
 
 TEST_F(ReadyExperimentsTest, AreListedWhereThereIsNoSuchFile) {
-  EXPECT_THAT(UsageErrorOf([] { ExperimentPath("quik.textproto"); }),
+  EXPECT_THAT(ErrorOf([] { ExperimentPath("quik.textproto"); }),
               AllOf(HasSubstr("--config"), HasSubstr("\"quik.textproto\""),
                     HasSubstr("ci, paper, quick, tight_energy"), HasSubstr("did you mean quick?")));
   for (const std::string config : {"/nowhere/quick.textproto", "", "other/quick.textproto", "../quick"}) {
-    EXPECT_THAT(UsageErrorOf([&] { ExperimentPath(config); }), HasSubstr("\"" + config + "\"")) << config;
+    EXPECT_THAT(ErrorOf([&] { ExperimentPath(config); }), HasSubstr("\"" + config + "\"")) << config;
   }
 }
 
@@ -70,11 +59,9 @@ TEST_F(ReadyExperimentsTest, StandInTheHelpOfTheOption) {
   EXPECT_THAT(ConfigHelp(), AllOf(HasSubstr("ci, paper, quick, tight_energy"), HasSubstr("default: quick")));
 }
 
-const std::filesystem::path kConfigs = std::filesystem::path(FRESCO_SOURCE_DIR) / "configs";
-
 TEST(ConfigFiles, AreAllReadable) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kConfigs)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kReadyFolder)) {
     EXPECT_NO_THROW(Experiment::Load(entry.path().string())) << entry.path();
     ++count;
   }
@@ -82,7 +69,7 @@ TEST(ConfigFiles, AreAllReadable) {
 }
 
 TEST(ConfigFiles, PaperIsTheDefaultsButForItsSensorsAndConstants) {
-  const Experiment paper = Experiment::Load((kConfigs / "paper.textproto").string());
+  const Experiment paper = Experiment::Load((kReadyFolder / "paper.textproto").string());
   const Experiment defaults = Experiment::Parse("", "defaults");
   EXPECT_EQ(paper.agent().DebugString(), defaults.agent().DebugString());
   EXPECT_EQ(paper.schedule().episodes(), defaults.schedule().episodes());
@@ -90,7 +77,7 @@ TEST(ConfigFiles, PaperIsTheDefaultsButForItsSensorsAndConstants) {
 }
 
 TEST(ConfigFiles, TightEnergyAllowsElevenHovers) {
-  const Experiment tight = Experiment::Load((kConfigs / "tight_energy.textproto").string());
+  const Experiment tight = Experiment::Load((kReadyFolder / "tight_energy.textproto").string());
   const World world(tight.scenario());
   const double slack_j = world.scenario().initial_energy_j - 69 * world.flying_energy_j();
   EXPECT_EQ(static_cast<int>(slack_j / (world.hovering_energy_j() - world.flying_energy_j())), 11);

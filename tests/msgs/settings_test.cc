@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "msgs/channels.h"
-#include "tests/msgs/usage_error.h"
+#include "tests/support/error_of.h"
 
 namespace fresco {
 namespace {
@@ -22,7 +22,7 @@ Experiment With(const std::vector<std::string>& arguments, const std::string& te
 }
 
 std::string ErrorOfSetting(const std::string& argument, const std::string& text = "") {
-  return UsageErrorOf([&] { With({argument}, text); });
+  return ErrorOf([&] { With({argument}, text); });
 }
 
 TEST(Settings, AreSplitAtTheFirstEqualsSign) {
@@ -33,7 +33,7 @@ TEST(Settings, AreSplitAtTheFirstEqualsSign) {
 
 TEST(Settings, WithoutPathOrEqualsSignAreRefused) {
   for (const std::string argument : {"schedule.seed", "=3", ""}) {
-    EXPECT_THAT(UsageErrorOf([&] { ParseSettings({argument}); }),
+    EXPECT_THAT(ErrorOf([&] { ParseSettings({argument}); }),
                 AllOf(HasSubstr("path=value"), HasSubstr("\"" + argument + "\"")));
   }
 }
@@ -82,6 +82,8 @@ TEST(Settings, RefuseIndexesThatAreNotThere) {
         "scenario.sensor.x_m", "scenario[0].slots", "scenario.sensor[99999999999].x_m"}) {
     EXPECT_THAT(ErrorOfSetting(path + "=1", kTwoSensors), HasSubstr("--set " + path)) << path;
   }
+  EXPECT_THAT(ErrorOfSetting("scenario.sensor[0].x_m=1"), HasSubstr("no such index"));
+  EXPECT_THAT(ErrorOfSetting("scenario.sensor[x].x_m=1", kTwoSensors), HasSubstr("name[index]"));
 }
 
 TEST(Settings, RefuseAnIndexAtTheEndOfThePath) {
@@ -142,8 +144,7 @@ TEST(ChannelNames, HaveThePrefix) {
   EXPECT_EQ(ChannelsWithPrefix("X").learner_status, "X_LEARNER_STATUS");
   for (const std::string& prefix :
        {std::string(), std::string(41, 'A'), std::string("A.*"), std::string("A B")}) {
-    EXPECT_THAT(UsageErrorOf([&] { ChannelsWithPrefix(prefix); }),
-                HasSubstr("run.channel_prefix: \"" + prefix));
+    EXPECT_THAT(ErrorOf([&] { ChannelsWithPrefix(prefix); }), HasSubstr("run.channel_prefix: \"" + prefix));
   }
 }
 

@@ -7,7 +7,6 @@
 #include "bus/authenticated_bus.h"
 #include "core/random.h"
 #include "msgs/order.h"
-#include "msgs/weights_codec.h"
 #include "tests/msgs/message_samples.h"
 
 namespace fresco {
@@ -65,23 +64,6 @@ TEST(Wire, EncodesAnOrderAsLcmsFormatSays) {
   Order decoded;
   EXPECT_TRUE(FromWire(wire, decoded));
   EXPECT_EQ(decoded, order);
-}
-
-TEST(Weights, ChunksCoverTheParametersExactly) {
-  for (const int64_t count : {1, kValuesPerChunk, kValuesPerChunk + 1, 58196}) {
-    std::vector<float> values(static_cast<size_t>(count));
-    for (size_t i = 0; i < values.size(); ++i) {
-      values[i] = static_cast<float>(i);
-    }
-    std::vector<float> joined;
-    for (int chunk = 0; chunk < ChunkCount(count); ++chunk) {
-      const weights_t message = WeightsChunk(values, 5, 9, chunk);
-      EXPECT_EQ(ChunkIndex(message, count), chunk);
-      EXPECT_EQ(ChunkIndex(message, count + kValuesPerChunk), -1);
-      joined.insert(joined.end(), message.values.begin(), message.values.end());
-    }
-    EXPECT_EQ(joined, values);
-  }
 }
 
 TEST(Wire, IsReadByLcmsOwnDecoderWhateverStandsBehindTheMessage) {

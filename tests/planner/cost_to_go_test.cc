@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/planner/planner_scenarios.h"
+#include "tests/planner/exhaustive_search.h"
 #include "tests/worlds/test_scenarios.h"
 
 namespace fresco {

@@ -1,6 +1,6 @@
-// All flights of a tiny scenario, tried one move and one transmission at a time: what the exact planner
-// and its parts are held against. Written from docs/paper.md; shares nothing with worlds/uav/ but plain
-// structs.
+// All flights of a tiny scenario, tried one move and one transmission at a time: the tests hold the exact
+// planner and its parts against it. Written from docs/paper.md; shares nothing with worlds/uav/ but plain
+// structs. And the tiny scenarios, of every kind that the exact planner has to tell apart.
 #pragma once
 
 #include <cstdint>
@@ -50,5 +50,14 @@ class ExhaustiveSearch {
   double hovering_j_;
   std::unordered_map<uint64_t, double> known_;
 };
+
+/// 1 x 1 to 4 x 3 cells, up to 10 slots, 1 to 3 sensors, any slack from zero on; half of them with an energy
+/// that allows only some hovers (or, by the literature's rotor, only some flown slots); weights whole,
+/// fractional or zero; a third with a cap on the AoI. Always valid.
+Scenario TinyScenario(uint32_t index);
+
+/// Whether fewer slots than the flight's can be spent on whichever of hovering and flying takes more energy.
+bool EnergyBinds(const Scenario& scenario);
+bool HoveringIsDearer(const Scenario& scenario);
 
 }  // namespace fresco

@@ -13,7 +13,6 @@
 #include "planner/dominance.h"
 #include "planner/price_ascent.h"
 #include "tests/planner/exhaustive_search.h"
-#include "tests/planner/planner_scenarios.h"
 
 namespace fresco {
 namespace {

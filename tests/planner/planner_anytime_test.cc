@@ -9,9 +9,7 @@
 #include "planner/label_search.h"
 #include "planner/planner.h"
 #include "tests/planner/exhaustive_search.h"
-#include "tests/planner/planner_scenarios.h"
 #include "tests/worlds/table_one.h"
-#include "tests/worlds/test_scenarios.h"
 
 namespace fresco {
 namespace {
@@ -54,13 +52,7 @@ struct Stopper {
 
 // So few labels a slot that the optimum's are dropped on the way: the bound has to remember them.
 TEST(PlannerProgress, ClaimsNoMoreThanIsProvedWhereLabelsAreDropped) {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 14;
-  scenario.start = {7, 0};
-  scenario.stop = {7, 13};
-  scenario.slots = 50;
-  scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 3, 1);
-  const World world(scenario);
+  const World world(SquareField(14, 50, {7, 0}, {7, 13}, RandomSensors(14, 14, 25, 3, 1)));
   const Plan plan = PlanOptimally(world);
   const int64_t optimum = Figures(world, plan.flight).total_aoi;  // in the problem's units, weights being 1
   int64_t largest_bound = 0;
@@ -110,14 +102,7 @@ TEST(PlannerStopped, AtAnyCallItHasAFlightAndATrueBoundAndAsksNoMore) {
 
 // Large enough that tables and slots take more work than one call's.
 Scenario MediumScenario(int sensors, double radius_m) {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 14;
-  scenario.start = {6, 0};
-  scenario.stop = {6, 13};
-  scenario.slots = 44;
-  scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, sensors, 5);
-  scenario.coverage_radius_m = radius_m;
-  return scenario;
+  return SquareField(14, 44, {6, 0}, {6, 13}, RandomSensors(14, 14, 25, sensors, 5), radius_m);
 }
 
 TEST(PlannerStopped, AsksByWorkWhileTablesAreBuiltToo) {
@@ -155,12 +140,7 @@ TEST(PlannerStopped, AsksInsideWideSlots) {
 
 // Tables of gigabytes, were they all wanted.
 TEST(PlannerStopped, HugeScenariosStopWhileTheyAreSetUp) {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 60;
-  scenario.start = {0, 0};
-  scenario.stop = {59, 59};
-  scenario.slots = 300;
-  scenario.sensors = RandomSensors(60, 60, scenario.cell_m, 40, 1);
+  Scenario scenario = SquareField(60, 300, {0, 0}, {59, 59}, RandomSensors(60, 60, 25, 40, 1));
   scenario.initial_energy_j = 60000;
   const World world(scenario);
   for (const int last : {1, 2, 5}) {

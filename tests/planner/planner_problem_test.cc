@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "tests/planner/planner_scenarios.h"
+#include "tests/planner/exhaustive_search.h"
 #include "tests/worlds/literal_model.h"
 #include "tests/worlds/test_scenarios.h"
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "tests/planner/exhaustive_search.h"
-#include "tests/planner/planner_scenarios.h"
 #include "tests/support/sanitized.h"
 #include "tests/worlds/literal_model.h"
 #include "tests/worlds/table_one.h"

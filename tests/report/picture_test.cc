@@ -1,17 +1,21 @@
 // Runs gnuplot, and checks the pictures that it draws.
 #include "report/picture.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
-#include "core/error.h"
 #include "core/files.h"
 #include "tests/report/picture_files.h"
+#include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 /// Sets PATH to a folder until its end.
 class PathGuard {
@@ -28,14 +32,7 @@ class PathGuard {
 };
 
 std::string FailureOf(const std::string& script, int64_t timeout_us = kGnuplotTimeoutUs) {
-  try {
-    RunGnuplot(script, timeout_us);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kFailure);
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return "";
+  return ErrorOf([&] { RunGnuplot(script, timeout_us); }, ErrorKind::kFailure);
 }
 
 void WriteProgram(const std::filesystem::path& path, const std::string& script) {
@@ -60,37 +57,33 @@ TEST(Gnuplot, TakesAndGivesMoreThanAPipeHolds) {
 }
 
 TEST(Gnuplot, FailsInItsOwnWordsOnABrokenScript) {
-  const std::string failure = FailureOf("set title 'fine'\nset nonsense\n");
-  EXPECT_NE(failure.find("set nonsense"), std::string::npos) << failure;
-  EXPECT_NE(failure.find("exit status"), std::string::npos) << failure;
+  EXPECT_THAT(FailureOf("set title 'fine'\nset nonsense\n"),
+              AllOf(HasSubstr("set nonsense"), HasSubstr("exit status")));
 }
 
 TEST(Gnuplot, NamesThePackageOfAMissingProgram) {
   const TemporaryFolder empty;
   const PathGuard path(empty.path());
-  const std::string failure = FailureOf("print 1\n");
-  EXPECT_NE(failure.find("gnuplot-nox"), std::string::npos) << failure;
+  EXPECT_THAT(FailureOf("print 1\n"), HasSubstr("gnuplot-nox"));
 }
 
 TEST(Gnuplot, SurvivesAProgramThatReadsNothing) {
   const TemporaryFolder folder;
   WriteProgram(folder.path() / "gnuplot", "echo no licence >&2\nexit 3\n");
   const PathGuard path(folder.path());
-  const std::string failure = FailureOf(std::string(1 << 20, '\n'));
-  EXPECT_NE(failure.find("exit status 3"), std::string::npos) << failure;
-  EXPECT_NE(failure.find("no licence"), std::string::npos) << failure;
+  EXPECT_THAT(FailureOf(std::string(1 << 20, '\n')),
+              AllOf(HasSubstr("exit status 3"), HasSubstr("no licence")));
 }
 
 TEST(Gnuplot, TellsOfASignal) {
   const TemporaryFolder folder;
   WriteProgram(folder.path() / "gnuplot", "kill -9 $$\n");
   const PathGuard path(folder.path());
-  EXPECT_NE(FailureOf("").find("signal 9"), std::string::npos);
+  EXPECT_THAT(FailureOf(""), HasSubstr("signal 9"));
 }
 
 TEST(Gnuplot, EndsAScriptThatDoesNotEnd) {
-  const std::string failure = FailureOf("while (1) { x = 1 }\n", 20'000);
-  EXPECT_NE(failure.find("did not finish within 20 ms"), std::string::npos) << failure;
+  EXPECT_THAT(FailureOf("while (1) { x = 1 }\n", 20'000), HasSubstr("did not finish within 20 ms"));
 }
 
 TEST(Gnuplot, HasNoUseForTheUsersSettings) {
@@ -134,8 +127,7 @@ TEST(Picture, IsAnSvgAndAPngOfTwiceTheSize) {
   WritePicture(SmallPicture(), folder.path() / "effect.of.R");
   EXPECT_EQ(FileCount(folder.path()), 2);
   EXPECT_TRUE(ParsesAsXml(folder.path() / "effect.of.R.svg"));
-  EXPECT_NE(ReadFile(folder.path() / "effect.of.R.svg").find("width=\"400\" height=\"250\""),
-            std::string::npos);
+  EXPECT_THAT(ReadFile(folder.path() / "effect.of.R.svg"), HasSubstr("width=\"400\" height=\"250\""));
   EXPECT_EQ(PngSize(ReadFile(folder.path() / "effect.of.R.png")), std::pair(800U, 500U));
 }
 

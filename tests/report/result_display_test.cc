@@ -1,6 +1,7 @@
 // What people read during a run and at its end.
 #include "report/result_display.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,8 @@
 
 namespace fresco {
 namespace {
+
+using testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,7 +50,7 @@ TEST(ProgressLine, SaysHowFarTheRunIsAndWhoWaits) {
       " 25% | 1500 of 6000 episodes | 12000 updates | epsilon 0.160 | greedy AoI - | 4800 transitions/s | "
       "600 updates/s | 2 actors | actors wait for the learner");
   status.waiting_for = "an actor to join";
-  EXPECT_NE(ProgressLine(status).find("learner waits for an actor to join"), std::string::npos);
+  EXPECT_THAT(ProgressLine(status), HasSubstr("learner waits for an actor to join"));
 }
 
 TEST(ProgressLine, BeginsWithWhatIsWaitedForAfterTheTraining) {
@@ -72,16 +75,15 @@ TEST(ProgressLine, ShowsTheGapOnceTheOptimumIsProvedAndABoundBefore) {
   status.average_aoi = 14;
   status.best_average_aoi = 13.75;
   status.arrived = 1;
-  EXPECT_NE(ProgressLine(status).find("greedy AoI 14.000 |"), std::string::npos);
+  EXPECT_THAT(ProgressLine(status), HasSubstr("greedy AoI 14.000 |"));
   status.lower_bound_average_aoi = 1.25;
-  EXPECT_NE(ProgressLine(status).find("best 13.750 (optimum not proved, at least 1.250) |"),
-            std::string::npos);
+  EXPECT_THAT(ProgressLine(status), HasSubstr("best 13.750 (optimum not proved, at least 1.250) |"));
   status.lower_bound_average_aoi = 12.5;
   status.gap_percent = 10;
   status.optimum_proved = 1;
-  EXPECT_NE(ProgressLine(status).find("best 13.750 (10.00 % over the optimum)"), std::string::npos);
+  EXPECT_THAT(ProgressLine(status), HasSubstr("best 13.750 (10.00 % over the optimum)"));
   status.arrived = 0;
-  EXPECT_NE(ProgressLine(status).find("14.000 (not arrived)"), std::string::npos);
+  EXPECT_THAT(ProgressLine(status), HasSubstr("14.000 (not arrived)"));
 }
 
 TEST(PolicyRows, HoldEveryPolicyAgainstTheOptimum) {
@@ -111,12 +113,12 @@ TEST(OptimumNote, SaysInWordsWhatABoundIsAndWhyThereIsNoMore) {
             "optimum by at most 30.00 %, which is a bound and not the gap.");
   std::string stopped = Summary("13", kBounded);
   stopped.replace(stopped.find("limit"), 5, "stopped");
-  EXPECT_NE(OptimumNote(stopped).find("the search was stopped."), std::string::npos);
+  EXPECT_THAT(OptimumNote(stopped), HasSubstr("the search was stopped."));
   EXPECT_EQ(OptimumNote(Summary("13", kProved)), "");
   EXPECT_EQ(OptimumNote(Summary("null", kUnknown)), "");
   std::string failed = Summary("null", kUnknown);
   failed.replace(failed.find("off"), 3, "failed");
-  EXPECT_NE(OptimumNote(failed).find("failed"), std::string::npos);
+  EXPECT_THAT(OptimumNote(failed), HasSubstr("failed"));
 }
 
 TEST(PolicyRows, LeaveOutWhatIsNotKnown) {
@@ -129,11 +131,11 @@ TEST(PolicyRows, LeaveOutWhatIsNotKnown) {
 TEST(ResultTable, HasALineForEveryRow) {
   const std::string table = ResultTable(Summary("13", kProved));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
-  EXPECT_NE(table.find("exact optimum"), std::string::npos);
+  EXPECT_THAT(table, HasSubstr("exact optimum"));
   const std::string unproved = ResultTable(Summary("13", kBounded));
   EXPECT_EQ(std::count(unproved.begin(), unproved.end(), '\n'), 6);
   EXPECT_EQ(unproved.find("exact optimum  "), std::string::npos);
-  EXPECT_NE(unproved.find("The exact optimum is not proved"), std::string::npos);
+  EXPECT_THAT(unproved, HasSubstr("The exact optimum is not proved"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -35,27 +36,24 @@ TEST(ReadProcess, FindsNoProcessWhereThereIsNone) {
 }
 
 TEST(ProcessesLeftBehind, AreChildrenThatHaveNotEnded) {
-  // No other program's folder: learners at work below it would count.
-  const auto folder = std::filesystem::path(testing::TempDir()) / "process_watch_children_test";
-  std::filesystem::create_directories(folder);
-  EXPECT_TRUE(ProcessesLeftBehind(folder).empty());
-  ChildProcess child({"/bin/sleep", "600"}, folder / "process_watch_test.log");
-  const auto found = ProcessesLeftBehind(folder);
+  const TemporaryFolder folder;  // no other program's: learners at work below it would count
+  EXPECT_TRUE(ProcessesLeftBehind(folder.path()).empty());
+  ChildProcess child({"/bin/sleep", "600"}, folder.path() / "process_watch_test.log");
+  const auto found = ProcessesLeftBehind(folder.path());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find(std::to_string(child.pid())), std::string::npos) << found[0];
   child.End(10'000'000);
-  EXPECT_TRUE(ProcessesLeftBehind(folder).empty());
-  std::filesystem::remove_all(folder);
+  EXPECT_TRUE(ProcessesLeftBehind(folder.path()).empty());
 }
 
 TEST(FilesLeftBehind, AreHalfWrittenOnes) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "process_watch_test";
-  std::filesystem::create_directories(folder / "inner");
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
+  std::filesystem::create_directory(folder / "inner");
   std::ofstream(folder / "whole.network") << "x";
   EXPECT_TRUE(FilesLeftBehind(folder).empty());
   std::ofstream(folder / "inner" / "half.network.tmp12") << "x";
   const auto found = FilesLeftBehind(folder);
-  std::filesystem::remove_all(folder);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find("inner/half.network.tmp12"), std::string::npos);
 }

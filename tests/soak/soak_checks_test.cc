@@ -1,6 +1,7 @@
 // A soak finds other weights, lost transitions, and growing memory and descriptors.
 #include "soak/soak_checks.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,8 @@
 
 namespace fresco {
 namespace {
+
+using testing::HasSubstr;
 
 RunFacts Facts() {
   return {"5e559ba1", "network", 1200, 82800, 20576, 2804};
@@ -23,7 +26,7 @@ TEST(Differences, NameTheWeightsOfBothRuns) {
   other.weights_crc32c = "5e559ba2";
   const auto found = Differences(Facts(), other);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].find("5e559ba1 undisturbed, 5e559ba2 here"), std::string::npos) << found[0];
+  EXPECT_THAT(found[0], HasSubstr("5e559ba1 undisturbed, 5e559ba2 here"));
 }
 
 TEST(Differences, FindANetworkFileWithOtherBytesUnderTheSameSum) {
@@ -56,11 +59,11 @@ TEST(Excesses, AllowAQuarterAndTheAllowanceAndFourDescriptors) {
   EXPECT_TRUE(Excesses(usual, {}, kAllowanceKib).empty());
   const auto memory = Excesses(usual, Use(133 * 1024 + 1, 21), kAllowanceKib);
   ASSERT_EQ(memory.size(), 1u);
-  EXPECT_NE(memory[0].find("fresco-learner: peak memory 133 MiB"), std::string::npos) << memory[0];
+  EXPECT_THAT(memory[0], HasSubstr("fresco-learner: peak memory 133 MiB"));
   EXPECT_EQ(Excesses(usual, Use(133 * 1024 + 1, 21), kAllowanceKib + 1).size(), 0u);
   const auto descriptors = Excesses(usual, Use(133 * 1024, 22), kAllowanceKib);
   ASSERT_EQ(descriptors.size(), 1u);
-  EXPECT_NE(descriptors[0].find("22 open descriptors"), std::string::npos) << descriptors[0];
+  EXPECT_THAT(descriptors[0], HasSubstr("22 open descriptors"));
 }
 
 /// Forty values, uniform over a width of 20. The slope of a least-squares line through them has a standard
@@ -122,10 +125,10 @@ TEST(Leaks, AreFoundInMemoryAndDescriptors) {
   EXPECT_TRUE(Leaks(AfterRounds(0, 0), kAllowanceKib).empty());
   EXPECT_TRUE(Leaks(AfterRounds(900, 0), kAllowanceKib).empty());
   ASSERT_EQ(Leaks(AfterRounds(3000, 0), kAllowanceKib).size(), 1u);
-  EXPECT_NE(Leaks(AfterRounds(3000, 0), kAllowanceKib)[0].find("memory grew by 26 MiB"), std::string::npos);
+  EXPECT_THAT(Leaks(AfterRounds(3000, 0), kAllowanceKib)[0], HasSubstr("memory grew by 26 MiB"));
   EXPECT_TRUE(Leaks(AfterRounds(3000, 0), 4 * kAllowanceKib).empty());
   ASSERT_EQ(Leaks(AfterRounds(0, 1), kAllowanceKib).size(), 1u);
-  EXPECT_NE(Leaks(AfterRounds(0, 1), kAllowanceKib)[0].find("descriptors grew by 9"), std::string::npos);
+  EXPECT_THAT(Leaks(AfterRounds(0, 1), kAllowanceKib)[0], HasSubstr("descriptors grew by 9"));
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <condition_variable>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -16,13 +16,7 @@ using Path = std::filesystem::path;
 
 class FileWriterTest : public ::testing::Test {
  protected:
-  FileWriterTest()
-      : directory_(std::filesystem::temp_directory_path() / ("fresco-writer-" + std::to_string(getpid()))) {
-    spdlog::set_level(spdlog::level::off);
-    std::filesystem::remove_all(directory_);
-    std::filesystem::create_directories(directory_);
-  }
-  ~FileWriterTest() override { std::filesystem::remove_all(directory_); }
+  FileWriterTest() { spdlog::set_level(spdlog::level::off); }
 
   FileWriter::File File(const std::string& name, const std::string& content) const {
     return {name, directory_ / name, [content] { return content; }, {}};
@@ -32,7 +26,8 @@ class FileWriterTest : public ::testing::Test {
     return {name, directory_ / "absent" / name, [] { return std::string("late"); }, {}};
   }
 
-  Path directory_;
+  const TemporaryFolder folder_;
+  const Path& directory_ = folder_.path();
 };
 
 TEST_F(FileWriterTest, WritesEveryFileAndSaysWhenItHas) {

@@ -1,10 +1,11 @@
 #include "storage/network_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include "core/error.h"
 #include "core/files.h"
+#include "tests/support/error_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fresco {
 namespace {
@@ -12,26 +13,18 @@ namespace {
 class NetworkFile : public ::testing::Test {
  protected:
   NetworkFile()
-      : directory_(std::filesystem::temp_directory_path() / ("fresco-network-" + std::to_string(getpid()))),
-        path_(directory_ / "best.network"),
+      : path_(folder_.path() / "best.network"),
         experiment_(Experiment::Parse("agent { hidden_layers: [9] }", "a test")) {
-    std::filesystem::create_directories(directory_);
     WriteFileAtomically(path_, SerializeNetworkFile(
                                    {experiment_, 4, 400, InitialParameters(experiment_.network_shape(), 2)}));
   }
-  ~NetworkFile() override { std::filesystem::remove_all(directory_); }
 
   void ExpectRefused(const std::string& content) {
     WriteFileAtomically(path_, content);
-    try {
-      ReadNetworkFile(path_);
-      FAIL() << "accepted " << content.size() << " bytes";
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find(path_.string()), std::string::npos) << error.what();
-    }
+    EXPECT_THAT(ErrorOf([&] { ReadNetworkFile(path_); }), testing::HasSubstr(path_.string()));
   }
 
-  std::filesystem::path directory_;
+  const TemporaryFolder folder_;
   std::filesystem::path path_;
   Experiment experiment_;
 };
@@ -60,8 +53,8 @@ TEST_F(NetworkFile, RefusesDamagedParameters) {
 TEST_F(NetworkFile, RefusesForeignFiles) {
   ExpectRefused("P5 640 480");
   ExpectRefused(std::string(5000, '\n'));
-  EXPECT_THROW(ReadNetworkFile(directory_), Error);
-  EXPECT_THROW(ReadNetworkFile(directory_ / "absent"), Error);
+  EXPECT_THROW(ReadNetworkFile(folder_.path()), Error);
+  EXPECT_THROW(ReadNetworkFile(folder_.path() / "absent"), Error);
 }
 
 }  // namespace

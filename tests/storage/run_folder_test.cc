@@ -1,30 +1,25 @@
 #include "storage/run_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <set>
 
-#include "core/error.h"
 #include "core/files.h"
 #include "storage/network_file.h"
+#include "tests/support/error_of.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/training/literal_run.h"
 
 namespace fresco {
 namespace {
 
+using testing::HasSubstr;
+
 using Path = std::filesystem::path;
 
 class RunFolderTest : public ::testing::Test {
  protected:
-  RunFolderTest()
-      : directory_(std::filesystem::temp_directory_path() /
-                   ("fresco-run-folder-" + std::to_string(getpid()))),
-        experiment_(SmallExperiment()) {
-    std::filesystem::remove_all(directory_);
-  }
-  ~RunFolderTest() override { std::filesystem::remove_all(directory_); }
-
   std::set<std::string> Names() const {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
@@ -39,18 +34,12 @@ class RunFolderTest : public ::testing::Test {
 
   /// What the error of opening a run's folder at `path` says; it must be wrong use.
   std::string Refusal(const Path& path) const {
-    try {
-      RunFolder folder(path, experiment_);
-      ADD_FAILURE() << "accepted " << path;
-      return {};
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-      return error.what();
-    }
+    return ErrorOf([&] { RunFolder(path, experiment_); });
   }
 
-  Path directory_;
-  Experiment experiment_;
+  const TemporaryFolder folder_;
+  const Path& directory_ = folder_.path();
+  const Experiment experiment_ = SmallExperiment();
 };
 
 Evaluation EvaluationOf(int64_t version, bool arrived) {
@@ -128,23 +117,21 @@ TEST_F(RunFolderTest, RefusesAFolderWithTheSummaryOfAnotherRunAndLeavesItAsItIs)
   RunFolder(directory_, SmallExperiment({{"schedule.seed", "8"}})).WriteSummary("{\"seed\": 8}");
   const std::string configuration = Content("config.textproto");
   const std::string refusal = Refusal(directory_);
-  EXPECT_NE(refusal.find(directory_.string()), std::string::npos) << refusal;
+  EXPECT_THAT(refusal, HasSubstr(directory_.string()));
   EXPECT_EQ(Content("summary.json"), "{\"seed\": 8}\n");
   EXPECT_EQ(Content("config.textproto"), configuration);
 }
 
 TEST_F(RunFolderTest, TakesAFolderWithoutASummary) {
-  std::filesystem::create_directories(directory_);
   WriteFileAtomically(directory_ / "notes.txt", "mine");
   const RunFolder folder(directory_, experiment_);
   EXPECT_EQ(Content("notes.txt"), "mine");
 }
 
 TEST_F(RunFolderTest, RefusesAPlaceWhereNoFolderCanBe) {
-  std::filesystem::create_directories(directory_);
   WriteFileAtomically(directory_ / "file", "not a folder");
-  EXPECT_NE(Refusal(directory_ / "file").find("file"), std::string::npos);
-  EXPECT_NE(Refusal(directory_ / "file" / "run").find("can't make the folder"), std::string::npos);
+  EXPECT_THAT(Refusal(directory_ / "file"), HasSubstr("file"));
+  EXPECT_THAT(Refusal(directory_ / "file" / "run"), HasSubstr("can't make the folder"));
 }
 
 }  // namespace

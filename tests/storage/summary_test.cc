@@ -6,8 +6,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "tests/learner/literal_crc32c.h"
-#include "tests/training/recorded_run.h"
+#include "core/bytes.h"
+#include "tests/nn/literal_network.h"
+#include "tests/training/literal_run.h"
 #include "training/flyer.h"
 #include "worlds/uav/baselines.h"
 
@@ -69,8 +70,7 @@ void ExpectFigures(const Json& json, const std::vector<State>& states) {
 }
 
 TEST(Summary, SaysWhatTheRunWas) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   const Json summary = SummaryOf(run);
   EXPECT_EQ(summary.at("run_id"), "000000000000002a");
   EXPECT_EQ(summary.at("config_hash"), EightDigits(run.experiment.hash()));
@@ -82,12 +82,11 @@ TEST(Summary, SaysWhatTheRunWas) {
   EXPECT_EQ(summary.at("wall_s"), 4.0);
   EXPECT_EQ(summary.at("updates_per_s"), 92.75);
   EXPECT_EQ(summary.at("transitions_per_s"), 195.0);
-  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(LiteralCrc32c(run.weights.back())));
+  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(Crc32c(SpanOf(run.weights.back()))));
 }
 
 TEST(Summary, GivesTheFiguresOfTheBestEvaluatedVersion) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   const Json summary = SummaryOf(run);
   const auto version = summary.at("best_version").get<size_t>();
   const Episode greedy = FlyGreedily(run.world, run.experiment, run.current_versions.at(version));
@@ -119,8 +118,7 @@ std::shared_ptr<const Plan> PlanOf(const RecordedRun& run, bool proved) {
 }
 
 TEST(Summary, GivesTheOptimumAndTheGapToIt) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   const auto plan = PlanOf(run, true);
   const Json summary = SummaryOf(run, 1, plan);
   const AoiFigures optimal = Figures(run.world, plan->flight);
@@ -132,8 +130,7 @@ TEST(Summary, GivesTheOptimumAndTheGapToIt) {
 }
 
 TEST(Summary, HasALowerBoundAndNoGapIfTheOptimumIsNotProved) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   const auto plan = PlanOf(run, false);
   const Json summary = SummaryOf(run, 1, plan);
   EXPECT_TRUE(summary.at("optimal_total_aoi").is_null());
@@ -147,8 +144,7 @@ TEST(Summary, HasALowerBoundAndNoGapIfTheOptimumIsNotProved) {
 TEST(Summary, SaysHowTheSearchEndedAndWhetherSomethingIsLeftToDo) {
   RecordedRun unfinished;
   EXPECT_FALSE(IsFinished(SummaryOf(unfinished).dump()));
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   for (const auto& [end, name, finished] :
        {std::tuple(SearchEnd::kOff, "off", true), std::tuple(SearchEnd::kProved, "proved", true),
         std::tuple(SearchEnd::kLimit, "limit", true), std::tuple(SearchEnd::kStopped, "stopped", false),
@@ -202,7 +198,7 @@ TEST(Summary, HasNoFiguresBeforeTheFirstEvaluation) {
   EXPECT_EQ(summary.at("completed"), false);
   EXPECT_EQ(summary.at("episodes"), 1);
   EXPECT_EQ(summary.at("updates"), 0);
-  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(LiteralCrc32c(run.weights.front())));
+  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(Crc32c(SpanOf(run.weights.front()))));
 }
 
 TEST(Summary, WritesEveryBitOfLargeRunIdsAndSeeds) {

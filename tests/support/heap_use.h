@@ -2,9 +2,12 @@
 // with a sanitizer, which has a heap of its own.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <malloc.h>
 
 #include <cstdint>
+
+#include "tests/support/sanitized.h"
 
 namespace fresco {
 
@@ -13,6 +16,16 @@ inline int64_t HeapUse() {
   const struct mallinfo2 info = mallinfo2();
   return static_cast<int64_t>(info.uordblks + info.hblkhd);
 }
+
+/// Skips its tests with a sanitizer.
+class HeapUseTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (kSanitized) {
+      GTEST_SKIP() << "a sanitizer has a heap of its own";
+    }
+  }
+};
 
 /// What `make` leaves on the heap. What it returns lives while that is counted.
 template <class Make>

@@ -47,6 +47,11 @@ Order TrainOrder(int64_t index, double epsilon) {
   return order;
 }
 
+FlightPlan PlanOf(const Experiment& experiment, int64_t index, double epsilon, uint32_t current,
+                  uint32_t target) {
+  return {TrainOrder(index, epsilon), SampleNetwork(experiment, current), SampleNetwork(experiment, target)};
+}
+
 OrderResult FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan) {
   return FlyTogether(world, experiment, 1, {plan}, 1).at(plan.order.index);
 }

@@ -28,6 +28,10 @@ struct FlightPlan {
   SharedParameters target;
 };
 
+/// An order of the sample networks with these numbers.
+FlightPlan PlanOf(const Experiment& experiment, int64_t index, double epsilon, uint32_t current = 1,
+                  uint32_t target = 0);
+
 /// Flies one order in a flyer of its own.
 OrderResult FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan);
 

@@ -1,44 +1,29 @@
 // One update of the DQN against a slow literal version in double precision: targets by loops,
-// gradients by central finite differences of the loss, Adam's first step by its definition.
+// gradients by central finite differences of the loss, Adam's first step by its definition. No heap use in
+// the training loop once warm: every allocation of this program is counted.
 #include "training/dqn.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
-#include "core/random.h"
+#include "tests/nn/literal_network.h"
+#include "tests/support/allocation_count.h"
+#include "training/replay_memory.h"
 
 namespace fresco {
 namespace {
 
-using Doubles = std::vector<double>;
 const std::vector<int> kLayers = {3, 6, 4};
 constexpr int kBatch = 8;
 constexpr double kDiscount = 0.9;
 
 Doubles Forward(const Doubles& parameters, const Matrix& inputs, int column) {
-  Doubles below(static_cast<size_t>(kLayers[0]));
-  for (size_t i = 0; i < below.size(); ++i) {
-    below[i] = static_cast<double>(inputs(static_cast<int>(i), column));
-  }
-  size_t offset = 0;
-  for (size_t layer = 0; layer + 1 < kLayers.size(); ++layer) {
-    const auto inputs_count = static_cast<size_t>(kLayers[layer]);
-    const auto units = static_cast<size_t>(kLayers[layer + 1]);
-    Doubles above(units);
-    for (size_t unit = 0; unit < units; ++unit) {
-      above[unit] = parameters[offset + inputs_count * units + unit];
-      for (size_t i = 0; i < inputs_count; ++i) {
-        above[unit] += parameters[offset + i * units + unit] * below[i];
-      }
-      above[unit] = layer + 2 < kLayers.size() ? std::max(0.0, above[unit]) : above[unit];
-    }
-    offset += (inputs_count + 1) * units;
-    below = above;
-  }
-  return below;
+  const float* first = inputs.col(column).data();
+  return LiteralForward(kLayers, parameters, Doubles(first, first + inputs.rows()));
 }
 
 double LiteralTarget(const Doubles& current, const Doubles& target, const MiniBatch& batch, int column,
@@ -184,6 +169,71 @@ TEST_P(DqnTest, TargetChangesOnlyWhenItIsCopied) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PlainAndDouble, DqnTest, ::testing::Bool());
+
+#ifndef FRESCO_SANITIZED
+
+class TrainingAllocations : public ::testing::Test {
+ protected:
+  static constexpr int kInputs = 7;
+  static constexpr int kActions = 20;
+  static constexpr int kBatch = 200;
+
+  TrainingAllocations()
+      : memory_(kInputs, kActions, 500),
+        batch_(kInputs, kActions, kBatch),
+        observation_(kInputs, 0.5f),
+        mask_(3, 0xff) {}
+
+  void Insert() { memory_.Insert({observation_, observation_, 3, -1, false, mask_}); }
+  void Sample(uint32_t update) {
+    RandomStream stream(1, RandomPurpose::kReplaySampling, update, 0);
+    memory_.Sample(stream, batch_);
+  }
+
+  ReplayMemory memory_;
+  MiniBatch batch_;
+  std::vector<float> observation_;
+  std::vector<uint8_t> mask_;
+};
+
+TEST_F(TrainingAllocations, AreSeenByThisTest) {
+  const int64_t before = AllocationCount();
+  const auto batch = std::make_unique<MiniBatch>(kInputs, kActions, kBatch);
+  EXPECT_GE(AllocationCount() - before, 7);
+}
+
+TEST_F(TrainingAllocations, DoNotHappenInTheReplayMemoryFromTheFirstTransitionOn) {
+  const int64_t before = AllocationCount();
+  for (uint32_t i = 0; i < 1200; ++i) {
+    Insert();
+    Sample(i);
+  }
+  EXPECT_EQ(AllocationCount(), before);
+}
+
+TEST_F(TrainingAllocations, DoNotHappenInUpdatesAndTargetCopiesOnceWarm) {
+  for (const bool double_dqn : {false, true}) {
+    const MlpShape shape({kInputs, 200, 256, kActions});
+    DqnOptions options;
+    options.double_dqn = double_dqn;
+    options.batch_size = kBatch;
+    Dqn dqn(shape, InitialParameters(shape, 1), options);
+    const auto update = [&](uint32_t index) {
+      Insert();
+      Sample(index);
+      dqn.Update(batch_, 1e-3);
+      dqn.CopyToTarget();
+    };
+    update(0);
+    const int64_t before = AllocationCount();
+    for (uint32_t index = 1; index < 6; ++index) {
+      update(index);
+    }
+    EXPECT_EQ(AllocationCount(), before);
+  }
+}
+
+#endif
 
 }  // namespace
 }  // namespace fresco

@@ -29,7 +29,7 @@ Settings SettingsOf(const ActionVariant& variant) {
 class FlyerActions : public ::testing::TestWithParam<ActionVariant> {
  protected:
   FlightPlan Plan(int64_t index, double epsilon, uint32_t network = 1) const {
-    return {TrainOrder(index, epsilon), SampleNetwork(experiment_, network), SampleNetwork(experiment_, 0)};
+    return PlanOf(experiment_, index, epsilon, network);
   }
 
   /// Episodes of so many orders.

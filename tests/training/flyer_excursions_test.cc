@@ -50,7 +50,7 @@ TEST_P(FlyerExcursions, FlyStraightToTheDrawnCellAndScheduleGreedily) {
   int flown_towards = 0;
   int cut_short = 0;
   for (int index = 0; index < 200; ++index) {
-    const FlightPlan plan{TrainOrder(index, 0.3), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)};
+    const FlightPlan plan = PlanOf(experiment, index, 0.3);
     const Episode episode = FlyAlone(world, experiment, plan).episode;
     const auto masks = MasksOf(world, experiment, episode);
     std::optional<Cell> waypoint;
@@ -94,8 +94,7 @@ TEST_P(FlyerExcursions, LeadToEveryCellAlike) {
   // With epsilon 1 the first move is that of an excursion. From (0, 0), of the 25 cells, it is east to the 14
   // others with column >= row, north to the 10 with column < row, and a hover to (0, 0) itself.
   constexpr int kOrders = 4000;
-  std::vector<FlightPlan> plans(
-      kOrders, {TrainOrder(0, 1), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)});
+  std::vector<FlightPlan> plans(kOrders, PlanOf(experiment, 0, 1));
   for (size_t index = 0; index < plans.size(); ++index) {
     plans[index].order = TrainOrder(static_cast<int64_t>(index), 1);
   }
@@ -117,8 +116,7 @@ TEST_P(FlyerExcursions, GiveTheSameBitsInAnyCompany) {
   const World world(experiment.scenario());
   std::vector<FlightPlan> plans;
   for (int index = 0; index < 40; ++index) {
-    plans.push_back(
-        {TrainOrder(index, (index % 5) / 4.0), SampleNetwork(experiment, 1), SampleNetwork(experiment, 0)});
+    plans.push_back(PlanOf(experiment, index, (index % 5) / 4.0));
   }
   for (const int per_slot : {1, 3, 40}) {
     const auto together = FlyTogether(world, experiment, 40, plans, per_slot);
@@ -133,7 +131,7 @@ TEST_P(FlyerExcursions, AreNoneWithEpsilonZero) {
   const Experiment without = SmallField(masks_);
   const World world(with.scenario());
   for (uint32_t network = 0; network < 20; ++network) {
-    const FlightPlan plan{TrainOrder(1, 0), SampleNetwork(with, network), SampleNetwork(with, network)};
+    const FlightPlan plan = PlanOf(with, 1, 0, network, network);
     EXPECT_TRUE(SameBits(FlyAlone(world, with, plan), FlyAlone(world, without, plan)));
   }
 }

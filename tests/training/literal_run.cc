@@ -1,8 +1,13 @@
 #include "tests/training/literal_run.h"
 
+#include <gtest/gtest.h>
+
 #include <deque>
 #include <map>
+#include <utility>
 
+#include "core/error.h"
+#include "tests/worlds/test_scenarios.h"
 #include "training/flyer.h"
 
 namespace fresco {
@@ -70,18 +75,52 @@ RunResult RunInOneLoop(const Experiment& experiment) {
 }
 
 OrderResult PartOf(const World& world, const OrderResult& result, int first, int count) {
-  const Episode& all = result.episode;
-  OrderResult part{result.order_index, first, {}, {}};
-  const auto copy = [&](const auto& from, auto& to, int extra, int scale) {
-    to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
+  const auto begin = result.td_errors.begin() + first;
+  return {result.order_index, first, PartOf(world, result.episode, first, count), {begin, begin + count}};
+}
+
+RecordedRun::RecordedRun(const Settings& settings)
+    : experiment(SmallExperiment(settings)),
+      world(experiment.scenario()),
+      trainer(experiment, world, Output()) {
+  weights.push_back(trainer.current());
+  trainer.Begin();
+  orders_at_begin = orders.size();
+}
+
+TrainerOutput RecordedRun::Output() {
+  TrainerOutput output;
+  output.order = [this](const Order& order) { orders.push_back(order); };
+  output.version = [this](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+    auto& versions = version.kind == NetworkKind::kCurrent ? current_versions : target_versions;
+    EXPECT_EQ(version.number, static_cast<int32_t>(versions.size())) << "versions come by their numbers";
+    versions.push_back(std::move(parameters));
   };
-  part.episode.outcome = first + count == all.transitions() ? all.outcome : Outcome::kFlying;
-  copy(all.states, part.episode.states, 1, 1);
-  copy(all.actions, part.episode.actions, 0, 1);
-  copy(all.rewards, part.episode.rewards, 0, 1);
-  copy(result.td_errors, part.td_errors, 0, 1);
-  copy(all.next_masks, part.episode.next_masks, 0, MaskSize(world));
-  return part;
+  output.evaluation = [this](const Evaluation& evaluation) { evaluations.push_back(evaluation); };
+  output.updated = [this] { weights.push_back(trainer.current()); };
+  return output;
+}
+
+Episode RecordedRun::Fly(const Order& order) const {
+  return FlyOrder(world, experiment, order, current_versions.at(static_cast<size_t>(order.current_version)),
+                  target_versions.at(static_cast<size_t>(order.target_version)))
+      .episode;
+}
+
+void RecordedRun::Commit(Episode episode) {
+  constexpr size_t kEndless = 1000;  // orders; a run of 60 episodes has fewer
+  FRESCO_CHECK(episodes.size() < kEndless);
+  const Order order = next();
+  trainer.Commit(order, episode);
+  episodes.push_back(std::move(episode));
+  progress.push_back(trainer.progress());
+  orders_written.push_back(orders.size());
+}
+
+void RecordedRun::Finish() {
+  while (!trainer.finished()) {
+    Commit(Fly(next()));
+  }
 }
 
 }  // namespace fresco

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "tests/support/sanitized.h"
-#include "tests/training/recorded_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 namespace {
@@ -17,7 +17,6 @@ namespace {
 class AbsurdState : public ::testing::Test {
  protected:
   AbsurdState() {
-    whole_.Finish();
     RecordedRun run;
     for (size_t committed = 0; committed < whole_.episodes.size(); ++committed) {
       if (committed % 9 == 0 || committed + 2 > whole_.episodes.size()) {
@@ -50,22 +49,11 @@ class AbsurdState : public ::testing::Test {
   }
 
   void ChangeProgress(TrainerProgress& progress) {
-    switch (stream_.NextBelow(7)) {
-      case 0:
-        return Change(progress.committed_orders);
-      case 1:
-        return Change(progress.episodes);
-      case 2:
-        return Change(progress.transitions);
-      case 3:
-        return Change(progress.updates);
-      case 4:
-        return Change(progress.replay_size);
-      case 5:
-        return Change(progress.current_version);
-      default:
-        return Change(progress.target_version);
-    }
+    int64_t* const counts[] = {&progress.committed_orders, &progress.episodes, &progress.transitions,
+                               &progress.updates, &progress.replay_size};
+    int32_t* const versions[] = {&progress.current_version, &progress.target_version};
+    const uint32_t field = stream_.NextBelow(7);
+    field < 5 ? Change(*counts[field]) : Change(*versions[field - 5]);
   }
 
   void ChangeOrders(std::vector<OrderInFlight>& orders) {
@@ -124,7 +112,7 @@ class AbsurdState : public ::testing::Test {
     }
   }
 
-  RecordedRun whole_;
+  const FinishedRun whole_;
   std::vector<TrainingState> states_;
   RandomStream stream_{1, RandomPurpose::kTest, 0, 0};
 };

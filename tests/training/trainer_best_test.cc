@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "tests/training/recorded_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 namespace {

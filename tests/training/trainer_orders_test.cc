@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/training/recorded_run.h"
+#include "tests/training/literal_run.h"
 #include "training/schedules.h"
 
 namespace fresco {
@@ -47,8 +47,7 @@ int64_t CommittedBefore(int64_t number) {
 }
 
 TEST(TrainerOrders, CountWithoutGap) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   // By hand: 371 updates, 53 versions; evaluated are 4, 8, .. 52 and in the end the last.
   ASSERT_EQ(run.orders.size(), static_cast<size_t>(kEpisodes + 13 + 1));
   for (size_t index = 0; index < run.orders.size(); ++index) {
@@ -58,8 +57,7 @@ TEST(TrainerOrders, CountWithoutGap) {
 }
 
 TEST(TrainerOrders, CarryASeedOfTheirOwnForEveryTrainingEpisode) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   RecordedRun other(Settings{{"schedule.seed", "6"}});
   std::set<uint64_t> seeds;
   for (const Order& order : TrainingOrders(run)) {
@@ -84,8 +82,7 @@ TEST(TrainerOrders, KeepTheWindowFullOfTrainingOrdersUntilTheseRunOut) {
 }
 
 TEST(TrainerOrders, NameTheVersionsOfTheMomentWhenTheEpisodeAWindowBeforeWasCommitted) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   int64_t number = 0;
   for (const Order& order : TrainingOrders(run)) {
     const int64_t updates = UpdatesAfter(CommittedBefore(number));
@@ -97,8 +94,7 @@ TEST(TrainerOrders, NameTheVersionsOfTheMomentWhenTheEpisodeAWindowBeforeWasComm
 }
 
 TEST(TrainerOrders, ExploreByTheLadderOfTheTrainingEpisodes) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   int64_t episode = 0;
   for (const Order& order : run.orders) {
     if (order.kind == OrderKind::kTrain) {
@@ -111,8 +107,7 @@ TEST(TrainerOrders, ExploreByTheLadderOfTheTrainingEpisodes) {
 }
 
 TEST(TrainerOrders, ExploreLessWithEveryTransitionCommittedWhenTheyAreWritten) {
-  RecordedRun run(Settings{{"schedule.linear.decrement", "0.002"}, {"schedule.linear.minimum", "0.1"}});
-  run.Finish();
+  FinishedRun run(Settings{{"schedule.linear.decrement", "0.002"}, {"schedule.linear.minimum", "0.1"}});
   int64_t number = 0;
   for (const Order& order : TrainingOrders(run)) {
     const auto transitions = static_cast<double>(kTransitions * CommittedBefore(number));
@@ -122,8 +117,7 @@ TEST(TrainerOrders, ExploreLessWithEveryTransitionCommittedWhenTheyAreWritten) {
 }
 
 TEST(TrainerOrders, EvaluateBesideTheNextTrainingOrderOnceFourVersionsMoreAreThere) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   std::vector<int64_t> found;
   for (size_t committed = 1; committed <= run.episodes.size(); ++committed) {
     const size_t before = committed == 1 ? run.orders_at_begin : run.orders_written[committed - 2];
@@ -146,14 +140,12 @@ TEST(TrainerOrders, EvaluateBesideTheNextTrainingOrderOnceFourVersionsMoreAreThe
 }
 
 TEST(TrainerOrders, AreTheSameForTrainingHoweverManyEvaluationsStandBesideThem) {
-  RecordedRun usual;
-  usual.Finish();
+  FinishedRun usual;
   // At most one evaluation an episode, and the final one: 371 updates make 53 versions, of which an episode
   // of 6 or 7 updates makes one at most.
   for (const auto& [versions_per_evaluation, evaluations] :
        {std::pair("1", 53u + 1), std::pair("2", 26u + 1), std::pair("1000000", 1u)}) {
-    RecordedRun run(Settings{{"schedule.versions_per_evaluation", versions_per_evaluation}});
-    run.Finish();
+    FinishedRun run(Settings{{"schedule.versions_per_evaluation", versions_per_evaluation}});
     // The last version that is due may be the final one.
     EXPECT_NEAR(static_cast<double>(run.evaluations.size()), evaluations, 1) << versions_per_evaluation;
     EXPECT_TRUE(run.trainer.current() == usual.trainer.current()) << versions_per_evaluation;

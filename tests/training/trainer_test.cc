@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "tests/training/recorded_run.h"
+#include "tests/training/literal_run.h"
 
 namespace fresco {
 namespace {
@@ -112,14 +112,12 @@ void ExpectTheWeightsOf(LiteralTraining literal, RecordedRun& run) {
   }
 }
 
-TEST(Trainer, TrainsAsTheLiteralLoopDoes) {
-  RecordedRun run;
-  ExpectTheWeightsOf(LiteralTraining(run), run);
-}
-
 TEST(Trainer, TrainsOnWhatTheNetworkSeesAsTheLiteralLoopDoes) {
-  RecordedRun run(Settings{{"agent.sensor_geometry", "true"}, {"schedule.excursion_share", "0.5"}});
-  ExpectTheWeightsOf(LiteralTraining(run), run);
+  for (const Settings& settings :
+       {Settings{}, {{"agent.sensor_geometry", "true"}, {"schedule.excursion_share", "0.5"}}}) {
+    RecordedRun run(settings);
+    ExpectTheWeightsOf(LiteralTraining(run), run);
+  }
 }
 
 TEST(Trainer, BoundsTargetsByWhatWasFlownAsTheLiteralLoopDoes) {
@@ -135,8 +133,7 @@ TEST(Trainer, BoundsTargetsByWhatWasFlownAsTheLiteralLoopDoes) {
 }
 
 TEST(Trainer, MakesVersionsAndTargetCopiesAtTheirUpdates) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   ASSERT_EQ(run.weights.size(), 371u + 1);
   ASSERT_EQ(run.current_versions.size(), 53u + 1);
   ASSERT_EQ(run.target_versions.size(), 18u + 1);
@@ -153,8 +150,7 @@ TEST(Trainer, MakesVersionsAndTargetCopiesAtTheirUpdates) {
 }
 
 TEST(Trainer, CountsTransitionsAndUpdatesAndLeavesEvaluationsOut) {
-  RecordedRun run;
-  run.Finish();
+  FinishedRun run;
   int64_t transitions = 0;
   int64_t updates = 0;
   int64_t episodes = 0;

@@ -20,14 +20,7 @@ Episode FlyRandomly(const World& world, uint32_t index, bool safe) {
 }
 
 TEST(AoiFigures, AreThoseWorkedByHand) {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 2;
-  scenario.slots = 4;
-  scenario.start = {0, 0};
-  scenario.stop = {1, 0};
-  scenario.sensors = {{0, 0, 1}, {25, 0, 3}};
-  scenario.coverage_radius_m = 0;
-  const World world(scenario);
+  const World world(SquareField(2, 4, {0, 0}, {1, 0}, {{0, 0, 1}, {25, 0, 3}}, 0));
   const Action actions[] = {{Move::kHover, 0}, {Move::kHover, 1}, {Move::kEast, 2}};
   const Episode flight =
       Fly(world, [&](const Environment& environment) { return actions[environment.state().slot - 1]; });
@@ -55,11 +48,7 @@ TEST(AoiFigures, HaveTheReturnAsObjective) {
 }
 
 TEST(AoiFigures, OfAnEarlyEndAreThoseWithoutAnyFurtherCollection) {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 3;
-  scenario.slots = 6;
-  scenario.start = scenario.stop = {0, 0};
-  scenario.sensors = {{0, 0, 1}, {50, 50, 1}};
+  Scenario scenario = SquareField(3, 6, {0, 0}, {0, 0}, {{0, 0, 1}, {50, 50, 1}});
   scenario.maximum_aoi = 5;
   const World world(scenario);
   const Episode flight = Fly(world, [](const Environment& environment) {

@@ -55,13 +55,7 @@ TEST(DistanceBaseline, FliesInRoundsToTheNearestSensor) {
 }
 
 TEST(Baselines, FlyAlongTheLongerAxisAndColumnsFirst) {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 5;
-  scenario.slots = 30;
-  scenario.start = scenario.stop = {0, 0};
-  scenario.coverage_radius_m = 0;
-  scenario.sensors = {{50, 75, 1}};
-  const World world(scenario);
+  const World world(SquareField(5, 30, {0, 0}, {0, 0}, {{50, 75, 1}}, 0));
   const std::vector<Move> expected = {Move::kNorth, Move::kEast,  Move::kNorth,
                                       Move::kEast,  Move::kNorth, Move::kHover};
   for (const BaselineKind kind : kKinds) {

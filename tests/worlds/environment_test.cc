@@ -16,13 +16,7 @@ using testing::ElementsAre;
 // 3 x 3 cells, T = 6, from (0, 0) to (2, 0); sensor 1 over (0, 0), sensor 2 over (2, 1) with three
 // times its weight, each covering its cell and the four beside it.
 Scenario SmallScenario() {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 3;
-  scenario.slots = 6;
-  scenario.start = {0, 0};
-  scenario.stop = {2, 0};
-  scenario.sensors = {{0, 0, 1}, {50, 25, 3}};
-  scenario.coverage_radius_m = 25;
+  Scenario scenario = SquareField(3, 6, {0, 0}, {2, 0}, {{0, 0, 1}, {50, 25, 3}}, 25);
   scenario.reward = {10, 20, 5};
   return scenario;
 }

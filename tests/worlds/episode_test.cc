@@ -13,17 +13,6 @@
 namespace fresco {
 namespace {
 
-Scenario FiveByFive() {
-  Scenario scenario = TableOne();
-  scenario.columns = scenario.rows = 5;
-  scenario.slots = 14;
-  scenario.start = {0, 0};
-  scenario.stop = {4, 4};
-  scenario.sensors = {{0, 100, 1}, {75, 25, 2}};
-  scenario.coverage_radius_m = 30;
-  return scenario;
-}
-
 class EpisodeCheck : public ::testing::Test {
  protected:
   explicit EpisodeCheck(MaskOptions mask_options = {true, true})
@@ -44,19 +33,6 @@ class EpisodeCheck : public ::testing::Test {
            flown.transitions() == episode.transitions() && IsPartOf(episode, 0, flown);
   }
 
-  Episode PartOf(int first, int count) const {
-    Episode part;
-    const auto copy = [&](const auto& from, auto& to, int extra, int scale) {
-      to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
-    };
-    part.outcome = first + count == episode_.transitions() ? episode_.outcome : Outcome::kFlying;
-    copy(episode_.states, part.states, 1, 1);
-    copy(episode_.actions, part.actions, 0, 1);
-    copy(episode_.rewards, part.rewards, 0, 1);
-    copy(episode_.next_masks, part.next_masks, 0, MaskSize(world_));
-    return part;
-  }
-
   /// `change` is applied to a copy of the flown episode.
   void ExpectRefused(const std::function<void(Episode&)>& change, const std::string& what, size_t where) {
     Episode changed = episode_;
@@ -64,7 +40,7 @@ class EpisodeCheck : public ::testing::Test {
     EXPECT_FALSE(Accepts(changed)) << what << " " << where;
   }
 
-  World world_{FiveByFive()};
+  World world_{SquareField(5, 14, {0, 0}, {4, 4}, {{0, 100, 1}, {75, 25, 2}}, 30)};
   MaskOptions mask_options_;
   Episode episode_;
 };
@@ -110,7 +86,7 @@ TEST_F(EpisodeCheck, AcceptsEveryPartOfAnEpisodeAtItsPlaceAlone) {
   const int transitions = episode_.transitions();
   for (int first = 0; first < transitions; ++first) {
     for (int count = 1; first + count <= transitions; ++count) {
-      const Episode part = PartOf(first, count);
+      const Episode part = PartOf(world_, episode_, first, count);
       const int elsewhere = first + (first + count < transitions ? 1 : -1);
       EXPECT_TRUE(IsPartOf(part, first, episode_)) << first << " " << count;
       EXPECT_FALSE(IsPartOf(part, elsewhere, episode_)) << first << " " << count;
@@ -202,23 +178,14 @@ TEST_F(EpisodeCheck, RefusesAnyOtherOutcome) {
 }
 
 TEST_F(EpisodeCheck, RefusesAnEpisodeWithoutItsEndOrItsBeginning) {
-  const auto drop_last = [&](Episode& episode, Outcome outcome) {
-    episode.states.pop_back();
-    episode.actions.pop_back();
-    episode.rewards.pop_back();
-    episode.next_masks.resize(episode.next_masks.size() - static_cast<size_t>(MaskSize(world_)));
-    episode.outcome = outcome;
-  };
-  ExpectRefused([&](Episode& episode) { drop_last(episode, Outcome::kArrived); }, "without end, arrived", 0);
-  ExpectRefused([&](Episode& episode) { drop_last(episode, Outcome::kFlying); }, "without end, flying", 0);
-  ExpectRefused(
-      [&](Episode& episode) {
-        episode.states.erase(episode.states.begin());
-        episode.actions.erase(episode.actions.begin());
-        episode.rewards.erase(episode.rewards.begin());
-        episode.next_masks.erase(episode.next_masks.begin(), episode.next_masks.begin() + MaskSize(world_));
-      },
-      "without beginning", 0);
+  const int all_but_one = episode_.transitions() - 1;
+  Episode without_end = PartOf(world_, episode_, 0, all_but_one);
+  EXPECT_FALSE(Accepts(without_end));
+  without_end.outcome = Outcome::kArrived;
+  EXPECT_FALSE(Accepts(without_end));
+  Episode without_beginning = PartOf(world_, episode_, 1, all_but_one);
+  EXPECT_EQ(without_beginning.outcome, Outcome::kArrived);
+  EXPECT_FALSE(Accepts(without_beginning));
   EXPECT_FALSE(Accepts(Episode{}));
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/files.h"
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/environment.h"
@@ -142,9 +143,7 @@ void ExpectGolden(const std::string& name, const Scenario& scenario, Pilot pilot
     std::ofstream(path) << text;
     return;
   }
-  std::stringstream golden;
-  golden << std::ifstream(path).rdbuf();
-  std::vector<std::string> expected = LinesOf(golden.str());
+  std::vector<std::string> expected = LinesOf(ReadFile(path));
   std::vector<std::string> found = LinesOf(text);
   const size_t lines = std::max(expected.size(), found.size());
   expected.resize(lines, "(the end)");

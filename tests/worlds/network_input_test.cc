@@ -31,12 +31,7 @@ TEST(NetworkInput, IsTheStateScaledToOne) {
 }
 
 TEST(NetworkInput, IsZeroAlongAnAxisOfOneCell) {
-  Scenario scenario = TableOne();
-  scenario.columns = 1;
-  scenario.rows = 1;
-  scenario.start = scenario.stop = {0, 0};
-  scenario.sensors = {{0, 0, 1}};
-  const World world(scenario);
+  const World world(SquareField(1, 70, {0, 0}, {0, 0}, {{0, 0, 1}}));
   const State state{.slot = 1, .cell = {0, 0}, .time_margin = 70, .energy_margin_j = 0, .aoi = {1}};
   EXPECT_THAT(InputOf(world, state), ElementsAre(0.0f, 0.0f, 1.0f / 70.0f, 1.0f, 0.0f));
   EXPECT_THAT(InputOf(world, state, {.sensor_geometry = true}),

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "tests/support/error_of.h"
 #include "tests/worlds/literal_model.h"
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
@@ -11,6 +11,7 @@
 namespace fresco {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(Rotor, OfTableOneNeedsTwiceAsMuchForHovering) {
@@ -53,14 +54,8 @@ TEST(Radio, HalfTheTimeForAnUpdateNeedsTheSquareOfTheSignal) {
 }
 
 TEST(Radio, RefusesAPowerThatDoesNotReachTheGround) {
-  try {
-    CoverageRadius(TableOne().radio, 1, 0.01);
-    FAIL() << "0.01 W was accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_THAT(error.what(), HasSubstr("scenario.transmit_power_w: 0.01 is out of range"));
-    EXPECT_THAT(error.what(), HasSubstr("0.0446"));
-  }
+  EXPECT_THAT(ErrorOf([] { CoverageRadius(TableOne().radio, 1, 0.01); }),
+              AllOf(HasSubstr("scenario.transmit_power_w: 0.01 is out of range"), HasSubstr("0.0446")));
 }
 
 TEST(Radio, RefusesAnUpdateThatNoSignalCouldCarry) {

@@ -1,6 +1,9 @@
 // The paper's Table I once more, for tests.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "worlds/uav/scenario.h"
 
 namespace fresco {
@@ -20,6 +23,19 @@ inline Scenario TableOne() {
   scenario.rotor = {99.66, 120.16, 120, 0.002, 0.48, 1.225, 0.0001, 0.5};
   scenario.speed_mps = 25;
   scenario.reward = {1, 1, 1};
+  return scenario;
+}
+
+/// Table I over a square of `side` x `side` cells.
+inline Scenario SquareField(int side, int slots, Cell start, Cell stop, std::vector<Sensor> sensors,
+                            double radius_m = 100) {
+  Scenario scenario = TableOne();
+  scenario.columns = scenario.rows = side;
+  scenario.slots = slots;
+  scenario.start = start;
+  scenario.stop = stop;
+  scenario.sensors = std::move(sensors);
+  scenario.coverage_radius_m = radius_m;
   return scenario;
 }
 

@@ -35,16 +35,25 @@ Rotor LiteratureRotor() {
   return {79.86, 88.63, 120, 4.03, 0.6, 1.225, 0.05, 0.503};
 }
 
+Scenario RandomGrid(int most_columns, int most_rows, RandomStream* stream) {
+  Scenario scenario = TableOne();
+  scenario.columns = Between(stream, 1, most_columns);
+  scenario.rows = Between(stream, 1, most_rows);
+  for (Cell* cell : {&scenario.start, &scenario.stop}) {
+    *cell = {Between(stream, 0, scenario.columns - 1), Between(stream, 0, scenario.rows - 1)};
+  }
+  return scenario;
+}
+
+int MovesToStop(const Scenario& scenario) {
+  return std::abs(scenario.start.column - scenario.stop.column) +
+         std::abs(scenario.start.row - scenario.stop.row);
+}
+
 Scenario RandomScenario(uint32_t index) {
   RandomStream stream = TestStream(1, index);
-  Scenario scenario = TableOne();
-  scenario.columns = Between(&stream, 1, 5);
-  scenario.rows = Between(&stream, 1, 5);
-  scenario.start = {Between(&stream, 0, scenario.columns - 1), Between(&stream, 0, scenario.rows - 1)};
-  scenario.stop = {Between(&stream, 0, scenario.columns - 1), Between(&stream, 0, scenario.rows - 1)};
-  const int distance = std::abs(scenario.start.column - scenario.stop.column) +
-                       std::abs(scenario.start.row - scenario.stop.row);
-  scenario.slots = std::max(2, distance + 1 + Between(&stream, 0, 9));
+  Scenario scenario = RandomGrid(5, 5, &stream);
+  scenario.slots = std::max(2, MovesToStop(scenario) + 1 + Between(&stream, 0, 9));
   scenario.sensors =
       RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, Between(&stream, 1, 4), index);
   for (Sensor& sensor : scenario.sensors) {

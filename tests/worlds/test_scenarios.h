@@ -1,10 +1,10 @@
-// Scenarios that the tests of worlds/ and planner/ share.
+// Scenarios, actions and parts of episodes that tests share.
 #pragma once
 
 #include <cstdint>
 
 #include "core/random.h"
-#include "worlds/uav/environment.h"
+#include "worlds/uav/episode.h"
 
 namespace fresco {
 
@@ -13,6 +13,12 @@ Scenario TableOneScenario();
 
 /// The rotor usual in the literature; flying at 25 m/s costs it more than hovering.
 Rotor LiteratureRotor();
+
+/// Table I over a random grid of at most so many cells, with random start and stop.
+Scenario RandomGrid(int most_columns, int most_rows, RandomStream* stream);
+
+/// Moves from the start to the stop.
+int MovesToStop(const Scenario& scenario);
 
 /// Grids of 1 x 1 to 5 x 5, up to nine slots of slack, 1 to 4 sensors of any weight, either rotor, an
 /// energy between just enough and plenty, sometimes a cap on the AoI. Always valid.
@@ -27,5 +33,19 @@ int Between(RandomStream* stream, int low, int high);
 /// An action drawn uniformly from those that the mask admits.
 Action RandomAction(const World& world, const Environment& environment, MaskOptions options,
                     RandomStream* stream);
+
+/// Transitions first .. first + count - 1 of an episode.
+inline Episode PartOf(const World& world, const Episode& episode, int first, int count) {
+  Episode part;
+  const auto copy = [&](const auto& from, auto& to, int extra, int scale) {
+    to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
+  };
+  part.outcome = first + count == episode.transitions() ? episode.outcome : Outcome::kFlying;
+  copy(episode.states, part.states, 1, 1);
+  copy(episode.actions, part.actions, 0, 1);
+  copy(episode.rewards, part.rewards, 0, 1);
+  copy(episode.next_masks, part.next_masks, 0, MaskSize(world));
+  return part;
+}
 
 }  // namespace fresco
