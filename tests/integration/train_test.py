@@ -59,10 +59,16 @@ class Train(FrescoTest):
         process = self.start("train", "--config", CI_CONFIG, "--lcm-url", url(17431), "--out", folder,
                              "--format", "json", *settings)
         wait_until((folder / "metrics.csv").exists, "a first evaluation")
-        asked = set(processes_with("fresco-learner")) & set(processes_with(str(folder)))
-        asked |= set(processes_with("fresco-actor")) & set(processes_with(url(17431)))
-        for pid in asked:
-            os.kill(pid, signal.SIGUSR1)
+        asked = set()
+
+        def both_actors_are_in_the_state():
+            asked.update(set(processes_with("fresco-learner")) & set(processes_with(str(folder))))
+            asked.update(set(processes_with("fresco-actor")) & set(processes_with(url(17431))))
+            for pid in asked:
+                os.kill(pid, signal.SIGUSR1)
+            return "\n  2 actors\n" in (folder / "learner.log").read_text()
+
+        wait_until(both_actors_are_in_the_state, "a state with both actors")
         output, errors = process.communicate()
         self.assertEqual(process.returncode, 0, errors)
         self.assertEqual(len(asked), 3)

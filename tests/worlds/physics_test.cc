@@ -35,22 +35,15 @@ TEST(Rotor, AgreesWithThePrintedFormulaWhereThatIsStable) {
   }
 }
 
-// (2^5 - 1) * 1e-13 W / 1e-6 * (100^2 + 120^2) m^2.
-TEST(Radio, NeedsThePowerOfTableOneForAHundredMetres) {
-  EXPECT_NEAR(TransmitPower(TableOne().radio, 1, 100), 31e-7 * 24400, 1e-12);
-  EXPECT_NEAR(TransmitPower(TableOne().radio, 1, 100), 0.07564, 1e-12);
-}
-
-TEST(Radio, RadiusIsTheInverseOfPower) {
+// P = (2^5 - 1) * 1e-13 W / 1e-6 * (R^2 + 120^2) m^2; in half the time the signal needs 2^10 - 1.
+TEST(Radio, ReachesAsFarAsThePowerWorkedByHand) {
   for (const double radius_m : {0.0, 1.0, 25.0, 100.0, 1234.5}) {
-    EXPECT_NEAR(CoverageRadius(TableOne().radio, 1, TransmitPower(TableOne().radio, 1, radius_m)), radius_m,
+    const double distance_squared = radius_m * radius_m + 120 * 120;
+    EXPECT_NEAR(CoverageRadius(TableOne().radio, 1, 31e-7 * distance_squared * (1 + 1e-13)), radius_m, 1e-4);
+    EXPECT_NEAR(CoverageRadius(TableOne().radio, 0.5, 1023e-7 * distance_squared * (1 + 1e-13)), radius_m,
                 1e-4);
   }
-}
-
-TEST(Radio, HalfTheTimeForAnUpdateNeedsTheSquareOfTheSignal) {
-  const double ratio = TransmitPower(TableOne().radio, 0.5, 100) / TransmitPower(TableOne().radio, 1, 100);
-  EXPECT_NEAR(ratio, 1023.0 / 31.0, 1e-9);
+  EXPECT_NEAR(CoverageRadius(TableOne().radio, 1, 0.07564), 100, 1e-6);
 }
 
 TEST(Radio, RefusesAPowerThatDoesNotReachTheGround) {
@@ -61,9 +54,8 @@ TEST(Radio, RefusesAPowerThatDoesNotReachTheGround) {
 TEST(Radio, RefusesAnUpdateThatNoSignalCouldCarry) {
   Radio radio = TableOne().radio;
   radio.bandwidth_hz = 0;
-  EXPECT_THROW(TransmitPower(radio, 1, 100), Error);
   EXPECT_THROW(CoverageRadius(radio, 1, 1), Error);
-  EXPECT_THROW(TransmitPower(TableOne().radio, 1e-3, 100), Error);  // 5000 bit/s/Hz
+  EXPECT_THROW(CoverageRadius(TableOne().radio, 1e-3, 1), Error);  // 5000 bit/s/Hz
 }
 
 }  // namespace

@@ -99,8 +99,7 @@ TEST(World, CoversADiscIncludingItsEdge) {
 
 TEST(World, CoversTheSameCellsWhenTheRadiusComesFromItsPower) {
   Scenario scenario = TableOneScenario();
-  scenario.coverage_radius_m =
-      CoverageRadius(scenario.radio, scenario.slot_s, TransmitPower(scenario.radio, scenario.slot_s, 100));
+  scenario.coverage_radius_m = CoverageRadius(scenario.radio, scenario.slot_s, 31e-7 * 24400);  // 100 m
   EXPECT_TRUE(World(scenario).Covers({12, 7}, 0));
 }
 

@@ -64,9 +64,4 @@ double CoverageRadius(const Radio& radio, double slot_s, double transmit_power_w
   return std::sqrt(radius_squared);
 }
 
-double TransmitPower(const Radio& radio, double slot_s, double coverage_radius_m) {
-  const double distance_squared = coverage_radius_m * coverage_radius_m + radio.altitude_m * radio.altitude_m;
-  return distance_squared * PowerPerSquareMetre(radio, slot_s);
-}
-
 }  // namespace fresco

@@ -15,12 +15,8 @@ double PropulsionPower(const Rotor& rotor, double speed_mps);
 void CheckRadio(const Radio& radio, double slot_s);
 
 /// Returns R = sqrt(beta0 P / ((2^(M / (B tau)) - 1) sigma^2) - h^2), in metres, for a transmission power P
-/// in watts. Throws UsageError if the power is too small to reach the UAV at its altitude, and as CheckRadio
-/// does.
+/// in watts. With Table I, 0.07564 W reach 100 m. Throws UsageError if the power is too small to reach the
+/// UAV at its altitude, and as CheckRadio does.
 double CoverageRadius(const Radio& radio, double slot_s, double transmit_power_w);
-
-/// The inverse of CoverageRadius: returns the power in watts for a radius in metres. With Table I, 100 m take
-/// 0.07564 W. Throws as CheckRadio does.
-double TransmitPower(const Radio& radio, double slot_s, double coverage_radius_m);
 
 }  // namespace fresco
