@@ -5,14 +5,6 @@
 #include "core/error.h"
 
 namespace fresco {
-namespace {
-
-std::span<const float> Span(const Vector& vector) {
-  return {vector.data(), static_cast<size_t>(vector.size())};
-}
-
-}  // namespace
-
 std::optional<int> BestAllowedAction(const Matrix& values, int column, std::span<const uint8_t> mask,
                                      int first, int end) {
   std::optional<int> best;
@@ -68,7 +60,7 @@ double Dqn::Update(const MiniBatch& batch, double learning_rate) {
   const int size = batch.size();
   ComputeTargets(batch);
   workspace_.input().leftCols(size) = batch.observations;
-  mlp_.Forward(Span(current_), size, workspace_);
+  mlp_.Forward(Values(current_), size, workspace_);
   output_gradient_.setZero();
   double loss = 0;
   for (int column = 0; column < size; ++column) {
@@ -77,9 +69,9 @@ double Dqn::Update(const MiniBatch& batch, double learning_rate) {
     output_gradient_(action, column) = 2.0f * error / static_cast<float>(size);
     loss += static_cast<double>(error) * static_cast<double>(error);
   }
-  mlp_.Backward(Span(current_), size, output_gradient_, workspace_,
+  mlp_.Backward(Values(current_), size, output_gradient_, workspace_,
                 {gradient_.data(), static_cast<size_t>(gradient_.size())});
-  adam_.Step(Span(gradient_), learning_rate, {current_.data(), static_cast<size_t>(current_.size())});
+  adam_.Step(Values(gradient_), learning_rate, {current_.data(), static_cast<size_t>(current_.size())});
   return loss / size;
 }
 
@@ -87,13 +79,13 @@ void Dqn::ComputeTargets(const MiniBatch& batch) {
   const int size = batch.size();
   next_workspace_.input().leftCols(size) = batch.next_observations;
   if (options_.double_dqn) {
-    mlp_.Forward(Span(current_), size, next_workspace_);
+    mlp_.Forward(Values(current_), size, next_workspace_);
     for (int column = 0; column < size; ++column) {
       choices_[static_cast<size_t>(column)] =
           GreedyAction(next_workspace_.output(), column, batch.next_mask(column));
     }
   }
-  mlp_.Forward(Span(target_), size, next_workspace_);
+  mlp_.Forward(Values(target_), size, next_workspace_);
   for (int column = 0; column < size; ++column) {
     const auto i = static_cast<size_t>(column);
     const int choice = options_.double_dqn
