@@ -35,7 +35,7 @@ target_compile_options(fresco_quick_to_compile INTERFACE
   # gcc 12 reports code of std::string at -O1, which is sound
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict>)
 # Rooms that tests and fuzzing spend their time in, so they have the optimiser with a sanitizer too.
-set(FRESCO_ROOMS_OPTIMISED_WITH_SANITIZER fresco_nn fresco_worlds fresco_planner fresco_bus fresco_msgs fresco_training)
+set(FRESCO_ROOMS_OPTIMISED_WITH_SANITIZER fresco_core fresco_nn fresco_worlds fresco_planner fresco_bus fresco_msgs fresco_training)
 
 # fresco_library(name sources... ): a folder's library, compiled with the common options.
 function(fresco_library name)

@@ -198,7 +198,7 @@ TEST(Dominance, OnlyLetsLabelsBeatThoseThatLeadToNothingBetter) {
   WorkMeter meter = Unstopped();
   int beaten = 0;
   int unbeaten = 0;
-  for (uint32_t index = 0; index < 200; ++index) {
+  for (uint32_t index = 0; index < 120; ++index) {
     SCOPED_TRACE(index);
     TinyProblem tiny(TinyScenario(index));
     const PlannerProblem& problem = tiny.problem();

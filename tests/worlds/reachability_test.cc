@@ -57,7 +57,7 @@ class MaskSearch {
 TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnToTheStop) {
   int safe = 0;
   int unsafe = 0;
-  for (uint32_t index = 0; index < 600; ++index) {
+  for (uint32_t index = 0; index < 200; ++index) {
     Scenario scenario = RandomScenario(index);
     if (scenario.slots > 11) {
       continue;
@@ -75,7 +75,7 @@ TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnToTheStop) {
 }
 
 TEST(SafeActionMask, LetsRandomFlightsAlwaysArrive) {
-  for (uint32_t index = 0; index < 6000; ++index) {
+  for (uint32_t index = 0; index < 2000; ++index) {
     const World world(RandomScenario(index));
     Environment environment(world);
     RandomStream stream = TestStream(3, index);
