@@ -94,6 +94,7 @@ void Actor::Join(const run_t& message, const std::string& text) {
           "their bits; build both with the same compiler and FRESCO_INSTRUCTION_SET",
           message.arithmetic_fingerprint, arithmetic_fingerprint_));
     }
+    RefuseOtherCode(Experiment::CodeIn(text, channels_.run));
     Experiment experiment = Experiment::Parse(text, channels_.run);
     if (experiment.hash() != IdentityOf(message).config_hash) {
       throw UsageError(fmt::format("its configuration has hash {:08x}, expected {:08x}", experiment.hash(),
@@ -116,6 +117,18 @@ void Actor::Join(const run_t& message, const std::string& text) {
                  IdentityOf(message).config_hash, capacity);
   } catch (const Error& error) {
     NoteRefusal(message.run_id, error.what());
+  }
+}
+
+/// Throws UsageError if the run's world has code that this actor was not told to run. Whoever can send
+/// messages is not to decide what runs on this host.
+void Actor::RefuseOtherCode(const std::string& code) const {
+  const auto is_same = [&](const std::filesystem::path& allowed) {
+    return std::filesystem::weakly_canonical(allowed) == std::filesystem::weakly_canonical(code);
+  };
+  if (!code.empty() && std::none_of(options_.allowed_code.begin(), options_.allowed_code.end(), is_same)) {
+    throw UsageError(fmt::format(
+        "its world runs the code {}; to let it, start the actor with --allow-code {}", code, code));
   }
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "actors/served_run.h"
 #include "bus/bus.h"
@@ -19,8 +21,10 @@
 namespace fresco {
 
 struct ActorOptions {
-  int64_t actor_id = 1;         ///< unique among the actors of a bus; never 0
-  int64_t run_id = 0;           ///< serve this run only; 0: any
+  int64_t actor_id = 1;  ///< unique among the actors of a bus; never 0
+  int64_t run_id = 0;    ///< serve this run only; 0: any
+  /// Files with code that is not Fresco's (plug-ins, Python modules) that a run may make this actor run.
+  std::vector<std::filesystem::path> allowed_code = {};
   std::optional<int> capacity;  ///< environments; none: as the run's configuration says
   std::string host;
   int32_t pid = 0;
@@ -78,6 +82,7 @@ class Actor {
   bool IsMine(RunIdentity identity, int64_t utime);
   bool WouldLeaveFor(const run_t& other) const;
   void Join(const run_t& message, const std::string& text);
+  void RefuseOtherCode(const std::string& code) const;
   void NoteRefusal(int64_t run_id, const char* reason);
   void LeaveSilentRun();
   void Send(const OrderResult& result, bool again);

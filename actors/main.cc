@@ -17,6 +17,7 @@ struct Arguments {
   std::string channel_prefix = kDefaultChannelPrefix;
   std::string run_id;
   int environments = 0;
+  std::vector<std::string> allowed_code;
   BusOptions bus;
   bool once = false;
 };
@@ -35,6 +36,7 @@ ActorOptions OptionsFrom(const Arguments& arguments) {
   if (!arguments.run_id.empty()) {
     options.run_id = ParseRunId(arguments.run_id);
   }
+  options.allowed_code.assign(arguments.allowed_code.begin(), arguments.allowed_code.end());
   if (arguments.environments > 0) {
     options.capacity = arguments.environments;
   }
@@ -72,6 +74,9 @@ int Main(int argc, char** argv) {
   app.add_option("--environments", arguments.environments,
                  "Episodes flown side by side; 0: as the run's configuration says")
       ->check(CLI::Range(0, 4096));
+  app.add_option(
+      "--allow-code", arguments.allowed_code,
+      "A plug-in's library or a Python module's file that a run may make this actor run; may be repeated");
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");
   return program.Run(argc, argv, [&] {
     Serve(arguments);

@@ -28,12 +28,11 @@ std::string Names(const std::vector<chunk_range_t>& ranges) {
 
 ServedRun::ServedRun(Experiment experiment, RunIdentity identity, int capacity, SendResult send)
     : experiment_(std::move(experiment)),
-      world_(experiment_.scenario()),
       identity_(identity),
       capacity_(capacity),
       send_(std::move(send)),
       store_(experiment_.network_shape().parameter_count()),
-      flyer_(world_, experiment_, capacity) {}
+      flyer_(experiment_, capacity) {}
 
 bool ServedRun::Hear(int64_t utime, int64_t now_us) {
   if (utime < newest_utime_ - kStaleUs) {
@@ -81,7 +80,7 @@ void ServedRun::Accept(const Order& order, int64_t now_us) {
 
 /// One more than the highest index that the learner can have written by now.
 int64_t ServedRun::WindowEnd() const {
-  return committed_ + MaximumOrdersInFlight(experiment_.schedule().window());
+  return committed_ + MaximumOrdersInFlight(experiment_.schedule());
 }
 
 /// Bounds memory, also if the window has moved back because the learner was resumed.
@@ -166,19 +165,20 @@ std::string ServedRun::StateText(int64_t now_us) const {
 }
 
 MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
-  const World world(experiment.scenario());
+  const World& world = experiment.world();
   const int64_t parameters = experiment.network_shape().parameter_count();
-  const int64_t orders = MaximumOrdersInFlight(experiment.schedule().window());
+  const int64_t orders = MaximumOrdersInFlight(experiment.schedule());
   const VersionsInFlight versions = MostVersionsInFlight(experiment);
   const int64_t wanted = std::min(orders, versions.current) + std::min(orders, versions.target);
-  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + LongestResultBytes(world);
+  constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
+  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + kGrowth * LongestResultBytes(world);
   return {"actor",
           1,
           {{"run.environments_per_actor", "its environments",
-            Flyer::BytesFor(world, experiment, capacity, std::min<int64_t>(capacity, orders))},
+            Flyer::BytesFor(experiment, capacity, std::min<int64_t>(capacity, orders))},
            {"agent.hidden_layers", "the networks that it holds", NetworkStore::BytesFor(parameters, wanted)},
            {"schedule.window", "the episodes of the orders in flight", orders * of_order},
-           {"scenario.grid", "the field", world.bytes()},
+           {"world", "the world", world.bytes()},
            {"run.actors", "the program", kProgramBytes}}};
 }
 

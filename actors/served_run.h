@@ -25,7 +25,7 @@ class ServedRun {
   ServedRun(Experiment experiment, RunIdentity identity, int capacity, SendResult send);
 
   RunIdentity identity() const { return identity_; }
-  const World& world() const { return world_; }
+  const World& world() const { return experiment_.world(); }
   NetworkStore& store() { return store_; }
 
   /// Notes a message of the learner: `utime` is its time by the learner's clock, `now_us` the time by
@@ -67,7 +67,6 @@ class ServedRun {
   std::string WaitsFor(const Order& order) const;
 
   Experiment experiment_;
-  World world_;
   RunIdentity identity_;
   int capacity_;
   SendResult send_;

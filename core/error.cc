@@ -32,6 +32,10 @@ Error Failure(const std::string& message) {
   return {ErrorKind::kFailure, message};
 }
 
+Error PluginFailure(const std::string& message) {
+  return {ErrorKind::kPlugin, message};
+}
+
 Error UsageError(const std::string& message) {
   return {ErrorKind::kUsage, message};
 }

@@ -16,6 +16,7 @@ namespace fresco {
 enum class ErrorKind {
   kFailure = 1,  ///< the work failed: exit status 1
   kUsage = 2,    ///< wrong use: command line, configuration, address; exit status 2
+  kPlugin = 3,   ///< code that is not Fresco's failed (plugins/fresco/world.h); exit status 3
 };
 
 class Error : public std::runtime_error {
@@ -34,6 +35,9 @@ Error Failure(const std::string& message);
 
 /// An Error of kind kUsage.
 Error UsageError(const std::string& message);
+
+/// An Error of kind kPlugin.
+Error PluginFailure(const std::string& message);
 
 /// Throws UsageError "origin: problem" unless the condition holds: what reads files checks them with it.
 void Expect(bool condition, const std::string& origin, const std::string& problem);

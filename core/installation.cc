@@ -39,6 +39,10 @@ std::filesystem::path SharedFolder() {
   return std::filesystem::weakly_canonical(OwnFolder() / FRESCO_SHARED_FOLDER);  // from core/CMakeLists.txt
 }
 
+std::filesystem::path LibraryFolder() {
+  return std::filesystem::weakly_canonical(OwnFolder() / FRESCO_LIBRARY_FOLDER);  // from core/CMakeLists.txt
+}
+
 void RequireProgram(const std::string& name, const std::string& package) {
   const char* search_path = std::getenv("PATH");
   std::istringstream folders(search_path == nullptr ? "" : search_path);

@@ -21,6 +21,9 @@ std::filesystem::path SiblingProgram(const std::string& name);
 /// `fresco spy`.
 std::filesystem::path SharedFolder();
 
+/// The folder of the libraries that programs load when they need them, lib/fresco.
+std::filesystem::path LibraryFolder();
+
 /// Throws UsageError unless a program of this name is in PATH. `package` is the Debian package that has it.
 void RequireProgram(const std::string& name, const std::string& package);
 

@@ -22,6 +22,8 @@ enum class RandomPurpose : uint32_t {
   kSensorPlacement = 4,  ///< indices: 0, 0
   kTest = 5,             ///< tests and soak runs only
   kEpisodeSeed = 6,      ///< seeds of training episodes; indices: episode low, episode high
+  kEpisodeStart = 7,     ///< where a world's episode starts, by its own seed; indices: 0, 0
+  kEvaluationSeed = 8,   ///< seeds of evaluation episodes; indices: episode low, episode high
 };
 
 /// The stream of (seed, purpose, first index, second index). Small and copyable.

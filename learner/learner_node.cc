@@ -9,6 +9,7 @@
 #include "core/identifier.h"
 #include "msgs/flight_messages.h"
 #include "msgs/protocol_times.h"
+#include "msgs/world_messages.h"
 
 namespace fresco {
 namespace {
@@ -17,14 +18,13 @@ constexpr int64_t kPollUs = 1'000;
 
 }  // namespace
 
-LearnerNode::LearnerNode(const Experiment& experiment, const World& world, int64_t run_id, Bus& bus,
-                         const Channels& channels)
-    : world_(&world),
+LearnerNode::LearnerNode(const Experiment& experiment, int64_t run_id, Bus& bus, const Channels& channels)
+    : experiment_(experiment),
       bus_(bus),
       channels_(channels),
       identity_{run_id, experiment.hash()},
       total_episodes_(static_cast<int>(experiment.schedule().episodes())),
-      ledger_(world, experiment.mask_options()),
+      ledger_(experiment_.world()),
       announcer_(experiment, run_id) {
   Subscribe(channels_.transitions, &LearnerNode::HandleTransitions);
   Subscribe(channels_.actor_status, &LearnerNode::HandleStatus);
@@ -92,7 +92,7 @@ void LearnerNode::HandleTransitions(const transitions_t& message) {
   if (!IsOurs(IdentityOf(message))) {
     return;
   }
-  if (!FromWire(*world_, message, part_)) {
+  if (!FromWire(experiment_.world(), message, part_)) {
     return Reject(&BusCounters::rejected_malformed);
   }
   switch (ledger_.Add(part_)) {
@@ -156,7 +156,7 @@ void LearnerNode::Step() {
     now_us = clock_.Look(begin_us);
   }
   SendRun(now_us, false);
-  SendScenarioIfDue(now_us);
+  SendWorldIfDue(now_us);
   SendOrders(now_us);
   SendWeights(now_us);
   SendStatusIfDue(now_us);
@@ -177,10 +177,13 @@ void LearnerNode::SendRun(int64_t now_us, bool finished) {
   }
 }
 
-void LearnerNode::SendScenarioIfDue(int64_t now_us) {
-  if (now_us >= next_scenario_us_) {
-    next_scenario_us_ = now_us + kScenarioPeriodUs;
-    for (const scenario_t& message : ScenarioMessages(world_->scenario())) {
+void LearnerNode::SendWorldIfDue(int64_t now_us) {
+  if (now_us >= next_world_us_) {
+    next_world_us_ = now_us + kWorldPeriodUs;
+    for (const world_t& message : WorldMessages(experiment_.world())) {
+      bus_.Publish(channels_.world, message, identity_);
+    }
+    for (const scenario_t& message : ScenarioMessages(experiment_.world())) {
       bus_.Publish(channels_.scenario, message, identity_);
     }
   }

@@ -28,9 +28,8 @@ namespace fresco {
 
 class LearnerNode {
  public:
-  /// Subscribes on `bus`, which must outlive the node, as must `world`.
-  LearnerNode(const Experiment& experiment, const World& world, int64_t run_id, Bus& bus,
-              const Channels& channels);
+  /// Subscribes on `bus`, which must outlive the node.
+  LearnerNode(const Experiment& experiment, int64_t run_id, Bus& bus, const Channels& channels);
 
   // ---- The training thread's side.
   void WriteOrder(const Order& order);
@@ -68,7 +67,7 @@ class LearnerNode {
   void Reject(int64_t BusCounters::*cause);
 
   void SendRun(int64_t now_us, bool finished);
-  void SendScenarioIfDue(int64_t now_us);
+  void SendWorldIfDue(int64_t now_us);
   void SendOrders(int64_t now_us);
   void SendWeights(int64_t now_us);
   void SendStatusIfDue(int64_t now_us);
@@ -81,7 +80,7 @@ class LearnerNode {
   template <class Message>
   void Subscribe(const std::string& channel, void (LearnerNode::*handle)(const Message&));
 
-  const World* world_;
+  Experiment experiment_;
   MessageBus bus_;
   Channels channels_;
   RunIdentity identity_;
@@ -101,7 +100,7 @@ class LearnerNode {
   // The network thread's own.
   StarvationWarning starvation_warning_;
   OrderResult part_;
-  int64_t next_scenario_us_ = 0;
+  int64_t next_world_us_ = 0;
   int64_t next_orders_us_ = 0;
   int64_t next_status_us_ = 0;
   int64_t next_burst_us_ = 0;

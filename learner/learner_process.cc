@@ -27,18 +27,18 @@ constexpr double kSecondsPerMicrosecond = 1e-6;
 
 LearnerProcess::LearnerProcess(const Experiment& experiment, Bus& bus, LearnerOptions options)
     : experiment_(experiment),
-      world_(experiment.scenario()),
       options_(std::move(options)),
       bus_(&bus),
-      node_(experiment_, world_, options_.run_id, bus, ChannelsWithPrefix(experiment.run().channel_prefix())),
-      trainer_(experiment_, world_, Output()),
+      node_(experiment_, options_.run_id, bus, ChannelsWithPrefix(experiment.run().channel_prefix())),
+      trainer_(experiment_, Output()),
       folder_(options_.folder, experiment_, options_.use) {}
 
 bool LearnerProcess::Run() {
   RefuseUsedBus();
   begin_us_ = MonotonicMicroseconds();
-  optimum_.emplace(world_, OptimumSearch::Limits{experiment_.run().optimum_limit_s(),
-                                                 int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
+  optimum_.emplace(experiment_.world(),
+                   OptimumSearch::Limits{experiment_.run().optimum_limit_s(),
+                                         int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
   BeginTraining();
   std::jthread network([this](std::stop_token stop) { Serve(std::move(stop)); });
   Train();
@@ -208,18 +208,18 @@ double LearnerProcess::WallSeconds() const {
 void LearnerProcess::WriteResults() {
   const OptimumResult optimum = optimum_->result();
   if (optimum.plan != nullptr) {
-    folder_.WriteOptimum(OptimumJson(world_, *optimum.plan));
+    folder_.WriteOptimum(OptimumJson(experiment_.world(), *optimum.plan));
   }
   folder_.WriteFinal(trainer_.current(), trainer_.progress());
   folder_.Finish();
-  folder_.WriteSummary(SummaryJson({experiment_, world_, options_.run_id, trainer_.finished(), wall_s_,
-                                    trainer_, node_.counters(), optimum, resumptions_, checkpoints_}));
+  folder_.WriteSummary(SummaryJson({experiment_, options_.run_id, trainer_.finished(), wall_s_, trainer_,
+                                    node_.counters(), optimum, resumptions_, checkpoints_}));
 }
 
 MemoryNeed LearnerMemory(const Experiment& experiment) {
   constexpr int64_t kMega = 1'000'000;
   constexpr int64_t kStored = 2;  // the best and the final network, while their files are written
-  const World world(experiment.scenario());
+  const World& world = experiment.world();
   const MlpShape shape = experiment.network_shape();
   const proto::Agent& agent = experiment.agent();
   const proto::Run& run = experiment.run();
@@ -227,13 +227,12 @@ MemoryNeed LearnerMemory(const Experiment& experiment) {
   const int64_t network = parameters * static_cast<int64_t>(sizeof(Vector::Scalar));
   const int64_t versions = MostVersionsInFlight(experiment).both();
   const int64_t checkpoint = CheckpointBytes(parameters, 0, 0);
-  const int64_t actions = agent.replay_capacity() + int64_t{world.maximum_transitions()};
+  const int64_t episodes = EpisodeHistory::BytesFor(world, agent.replay_capacity());
   return {"learner",
           1,
           {{"agent.replay_capacity", "the replay memory",
-            ReplayMemory::BytesFor(shape.inputs(), shape.outputs(), agent.replay_capacity()) +
-                ActionHistory::BytesFor(agent.replay_capacity(), world.maximum_transitions()) +
-                CheckpointBytes(0, 0, actions)},
+            ReplayMemory::BytesFor(shape.inputs(), shape.outputs(), agent.replay_capacity()) + episodes +
+                CheckpointBytes(0, 0, CheckpointedEpisodeBytes(world, agent.replay_capacity()))},
            {"agent.batch_size", "a batch and the units' outputs for it",
             MiniBatch::BytesFor(shape.inputs(), shape.outputs(), agent.batch_size()) +
                 Dqn::BatchBytes(shape, agent.batch_size())},
@@ -243,11 +242,10 @@ MemoryNeed LearnerMemory(const Experiment& experiment) {
             versions * (network + WeightPublisher::BytesPerVersion(parameters)) +
                 CheckpointBytes(parameters, versions, 0) - checkpoint},
            {"schedule.window", "the episodes of the orders in flight",
-            Ledger::BytesFor(world, MaximumOrdersInFlight(experiment.schedule().window()))},
-           {"scenario.grid", "the field",
-            world.bytes() + NetworkInput::BytesFor(world, experiment.network_input_options())},
+            Ledger::BytesFor(world, MaximumOrdersInFlight(experiment.schedule()))},
+           {"world", "the world", world.bytes()},
            {"run.optimum_memory_mb", "the search for the exact optimum",
-            run.optimum_limit_s() > 0 ? run.optimum_memory_mb() * kMega : 0},
+            CanPlan(world) && run.optimum_limit_s() > 0 ? run.optimum_memory_mb() * kMega : 0},
            {"", "the program", kProgramBytes}}};
 }
 

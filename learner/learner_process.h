@@ -51,7 +51,6 @@ class LearnerProcess {
   double WallSeconds() const;
 
   Experiment experiment_;
-  World world_;
   LearnerOptions options_;
   Bus* bus_;
   LearnerNode node_;

@@ -19,14 +19,13 @@ void TrainingReport::WriteTo(learner_status_t& status) const {
   status.learning_rate = progress.learning_rate;
   status.loss = progress.loss;
   status.staleness_updates = progress.staleness_updates;
-  status.average_aoi = last_evaluation ? last_evaluation->figures.average_aoi : kNan;
-  status.arrived = last_evaluation && last_evaluation->arrived ? 1 : 0;
-  status.best_average_aoi = best && best->evaluation.arrived ? best->evaluation.figures.average_aoi : kNan;
-  status.lower_bound_average_aoi = optimum ? optimum->lower_bound_average_aoi : kNan;
+  status.score = last_evaluation ? last_evaluation->score() : kNan;
+  status.success = last_evaluation ? last_evaluation->success : 0;
+  status.best_score = best && best->evaluation.success > 0 ? best->evaluation.score() : kNan;
+  status.score_bound = optimum ? optimum->lower_bound_average_aoi : kNan;
   status.optimum_proved = optimum && optimum->proved ? 1 : 0;
-  status.gap_percent = status.optimum_proved != 0
-                           ? GapPercent(status.best_average_aoi, optimum->lower_bound_average_aoi)
-                           : kNan;
+  status.gap_percent =
+      status.optimum_proved != 0 ? GapPercent(status.best_score, optimum->lower_bound_average_aoi) : kNan;
 }
 
 std::optional<std::string> StarvationWarning::Note(double starved_s, const std::string& waiting_for) {

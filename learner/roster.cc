@@ -121,6 +121,9 @@ int64_t Roster::Choose(int64_t except, int64_t now_us) const {
     const auto open = open_orders_.find(id);
     // An actor that owes late results gets fewer orders, but still some: it or its network may just be slow.
     const int orders = (open == open_orders_.end() ? 0 : open->second) + actor.late_orders;
+    if (orders >= kOrdersPerEnvironment * actor.capacity) {
+      continue;
+    }
     const std::pair load(static_cast<double>(orders) / actor.capacity, actor.last_assigned);
     if (best == 0 || load < best_load) {
       best = id;

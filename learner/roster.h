@@ -34,6 +34,9 @@ class Roster {
   /// The most actors remembered at a time. If there are as many, a new one replaces one that is
   /// gone.
   static constexpr size_t kMaximumActors = 4096;
+  /// An actor gets at most so many orders for each of its environments: one to fly and one to fly next. The
+  /// others wait for an actor with room, which may join later.
+  static constexpr int kOrdersPerEnvironment = 2;
 
   enum class Hearing {
     kHeard,
@@ -76,7 +79,8 @@ class Roster {
   void Assign(Assignment& assignment, int64_t actor_id, int64_t now_us);
   void Release(int64_t actor_id);
   std::string LastHeard(int64_t now_us) const;
-  /// Returns the least loaded actor that is not silent; `except` only if there is no other. 0: there is none.
+  /// Returns the least loaded actor that is not silent and has room; `except` only if there is no other. 0:
+  /// there is none.
   int64_t Choose(int64_t except, int64_t now_us) const;
   bool IsLate(const Assignment& assignment, int64_t now_us) const;
 

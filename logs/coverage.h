@@ -52,7 +52,8 @@ class EpisodeCoverage {
   /// good.
   explicit EpisodeCoverage(size_t maximum_partial = 65'536) : maximum_partial_(maximum_partial) {}
 
-  /// Adds the transitions first .. first + count - 1 of an order's episode. `ends_episode` says whether the
+  /// Adds the transitions first .. first + count - 1 of an order's episode. (If states are too long for one
+  /// message, LogSummary counts the parts of transitions instead.) `ends_episode` says whether the
   /// last of them is terminal.
   void Add(int64_t order_index, int64_t first, int64_t count, bool ends_episode);
 

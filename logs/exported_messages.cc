@@ -9,8 +9,6 @@
 
 #include "core/identifier.h"
 #include "msgs/message_decoder.h"
-#include "worlds/uav/environment.h"
-#include "worlds/uav/world.h"
 
 namespace fresco {
 namespace {
@@ -40,43 +38,45 @@ std::string AllowedActions(const std::vector<uint8_t>& mask, int actions) {
   return text;
 }
 
-void AddState(const transitions_t& message, size_t i, const std::string& prefix, NamedRow& row) {
-  const auto add = [&](const std::string& name, auto value) {
-    row.emplace_back(prefix + name, CellOf(name, value));
-  };
-  add("column", message.column[i]);
-  add("row", message.row[i]);
-  add("time_margin", message.time_margin[i]);
-  add("energy_margin_j", message.energy_margin_j[i]);
-  for (size_t sensor = 0; sensor < message.aoi[i].size(); ++sensor) {
-    add(fmt::format("aoi_{}", sensor + 1), message.aoi[i][sensor]);
+const char* EndingName(int ending) {
+  constexpr const char* kNames[] = {"none", "terminal", "truncated"};
+  return kNames[ending];
+}
+
+/// The name of a field of the state or, without names, its number.
+std::string FieldName(const WorldNames* names, const transitions_t& message, size_t field) {
+  const size_t number = static_cast<size_t>(message.first_field) + field;
+  return names != nullptr && number < names->state.size() ? names->state[number].name
+                                                          : fmt::format("state_{}", number);
+}
+
+void AddState(const transitions_t& message, const WorldNames* names, size_t i, const std::string& prefix,
+              NamedRow& row) {
+  for (size_t field = 0; field < message.state[i].size(); ++field) {
+    const std::string name = FieldName(names, message, field);
+    row.emplace_back(prefix + name, CellOf(name, message.state[i][field]));
   }
 }
 
-void AddAction(int action, int sensors, NamedRow& row) {
-  const bool exists = action >= 0 && action < kMoves * (sensors + 1);
-  row.emplace_back("action", int64_t{action});
-  row.emplace_back("move", exists ? MoveName(static_cast<Move>(action / (sensors + 1))) : "none");
-  row.emplace_back("scheduled", int64_t{exists ? action % (sensors + 1) : 0});
-}
-
-NamedRow TransitionRow(const transitions_t& message, size_t i) {
+NamedRow TransitionRow(const transitions_t& message, const WorldNames* names, size_t i) {
   NamedRow row = {{"utime", message.utime},
                   {"run_id", CellOf("run_id", message.run_id)},
                   {"order_index", message.order_index},
                   {"actor_id", message.actor_id},
+                  {"seed", message.seed},
                   {"transition", int64_t{message.first_transition} + static_cast<int64_t>(i)}};
   const bool is_last = i + 1 == static_cast<size_t>(message.transition_count);
-  const auto outcome = is_last ? static_cast<Outcome>(message.outcome) : Outcome::kFlying;
-  row.emplace_back("outcome", OutcomeName(outcome));
-  AddState(message, i, "", row);
-  AddAction(message.action[i], message.sensor_count, row);
+  row.emplace_back("ending", EndingName(is_last ? message.ending : 0));
+  AddState(message, names, i, "", row);
+  const int16_t action = message.action[i];
+  const bool named = names != nullptr && action >= 0 && static_cast<size_t>(action) < names->actions.size();
+  row.emplace_back("action", int64_t{action});
+  row.emplace_back("action_name", named ? names->actions[static_cast<size_t>(action)] : std::string());
   row.emplace_back("reward", CellOf("reward", message.reward[i]));
   row.emplace_back("td_error", CellOf("td_error", message.td_error[i]));
-  row.emplace_back("terminal", int64_t{outcome != Outcome::kFlying});
-  AddState(message, i + 1, "next_", row);
-  row.emplace_back("next_allowed_actions",
-                   AllowedActions(message.next_mask[i], kMoves * (message.sensor_count + 1)));
+  AddState(message, names, i + 1, "next_", row);
+  const int actions = names != nullptr ? static_cast<int>(names->actions.size()) : 8 * message.mask_size;
+  row.emplace_back("next_allowed_actions", AllowedActions(message.next_mask[i], actions));
   return row;
 }
 
@@ -115,12 +115,48 @@ OrderedJson JsonOf(const Message& message) {
   return json;
 }
 
+/// Replaces the states of the message's JSON by objects with the names of the fields, and adds the names of
+/// the actions.
+void NameTransitions(const transitions_t& message, const WorldNames& names, OrderedJson& json) {
+  OrderedJson states = OrderedJson::array();
+  for (const std::vector<float>& state : message.state) {
+    OrderedJson& named = states.emplace_back(OrderedJson::object());
+    for (size_t field = 0; field < state.size(); ++field) {
+      const std::string name = FieldName(&names, message, field);
+      named[name] = JsonOfCell(CellOf(name, state[field]));
+    }
+  }
+  json["state"] = std::move(states);
+  OrderedJson& actions = json["action_name"] = OrderedJson::array();
+  for (const int16_t action : message.action) {
+    const bool named = action >= 0 && static_cast<size_t>(action) < names.actions.size();
+    actions.push_back(named ? names.actions[static_cast<size_t>(action)] : "");
+  }
+}
+
 /// Returns the JSON in one line. Bytes of texts that are not UTF-8 become replacement characters.
 std::string Line(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 }  // namespace
+
+void WorldNamesByRun::Add(const LcmEvent& event) {
+  if (BeginsAs<world_t>(event.message)) {
+    decoder_.Decode(event.message, [this](const auto& message) {
+      if constexpr (std::is_same_v<decltype(message), const world_t&>) {
+        if (by_run_.size() < kMaximumRuns || by_run_.contains(message.run_id)) {
+          by_run_[message.run_id].Add(message);
+        }
+      }
+    });
+  }
+}
+
+const WorldNames* WorldNamesByRun::Of(int64_t run_id) const {
+  const auto found = by_run_.find(run_id);
+  return found == by_run_.end() ? nullptr : found->second.names();
+}
 
 CsvCell CellOf(std::string_view field, int64_t value) {
   if (field == "run_id") {
@@ -155,12 +191,14 @@ NamedRow StatusRow(const learner_status_t& status) {
   return RowOf(status);
 }
 
-bool ForEachTransitionRow(const transitions_t& message, const std::function<void(const NamedRow&)>& handle) {
-  if (message.state_count != message.transition_count + 1 || message.outcome < 0 || message.outcome > 3) {
+bool ForEachTransitionRow(const transitions_t& message, const WorldNames* names,
+                          const std::function<void(const NamedRow&)>& handle) {
+  if (message.state_count != message.transition_count + 1 || message.ending < 0 || message.ending > 2 ||
+      message.first_field < 0) {
     return false;
   }
   for (size_t i = 0; i < static_cast<size_t>(message.transition_count); ++i) {
-    handle(TransitionRow(message, i));
+    handle(TransitionRow(message, names, i));
   }
   return true;
 }
@@ -181,11 +219,16 @@ std::string FingerprintText(std::span<const std::byte> message) {
   return digits;
 }
 
-std::string EventJson(const LcmEvent& event, MessageDecoder& decoder) {
+std::string EventJson(const LcmEvent& event, MessageDecoder& decoder, const WorldNamesByRun& names) {
   OrderedJson json = {{"utime", event.utime}, {"channel", event.channel}, {"type", nullptr}};
-  const auto result = decoder.Decode(event.message, [&json](const auto& message) {
+  const auto result = decoder.Decode(event.message, [&](const auto& message) {
     json["type"] = message.getTypeName();
     json["message"] = JsonOf(message);
+    if constexpr (std::is_same_v<decltype(message), const transitions_t&>) {
+      if (const WorldNames* known = names.Of(message.run_id); known != nullptr && message.first_field >= 0) {
+        NameTransitions(message, *known, json["message"]);
+      }
+    }
   });
   if (result != MessageDecoder::Result::kDecoded) {
     if (result == MessageDecoder::Result::kDamaged) {

@@ -8,6 +8,7 @@
 
 #include "core/identifier.h"
 #include "logs/exported_messages.h"
+#include "msgs/order.h"
 
 namespace fresco {
 namespace {
@@ -85,8 +86,8 @@ std::string RunText(int64_t run_id, const RunTraffic& run) {
   const EpisodeCoverage& episodes = run.episodes;
   text += fmt::format(
       "  episodes: {} whole, {} partial; transitions: {}, {} missing, {} sent again; flown by {} actors\n",
-      episodes.whole(), episodes.partial(), episodes.transitions(), episodes.missing_transitions(),
-      episodes.repeated_transitions(), run.actors.size());
+      episodes.whole(), episodes.partial(), run.transitions(), run.missing_transitions(),
+      run.repeated_transitions(), run.actors.size());
   if (run.learner_status) {
     text +=
         fmt::format("  learner, at the end: {} of {} episodes, {} updates\n", run.learner_status->episodes,
@@ -120,9 +121,9 @@ OrderedJson RunJson(int64_t run_id, const RunTraffic& run) {
                       {"orders_without_transitions", run.orders_without_transitions()},
                       {"episodes_whole", run.episodes.whole()},
                       {"episodes_partial", run.episodes.partial()},
-                      {"transitions", run.episodes.transitions()},
-                      {"transitions_missing", run.episodes.missing_transitions()},
-                      {"transitions_repeated", run.episodes.repeated_transitions()},
+                      {"transitions", run.transitions()},
+                      {"transitions_missing", run.missing_transitions()},
+                      {"transitions_repeated", run.repeated_transitions()},
                       {"actors", run.actors}};
   if (run.learner_status) {
     json["learner_episodes"] = run.learner_status->episodes;
@@ -211,8 +212,14 @@ void LogSummary::Take(const TransitionsHeader& header) {
   if (run == nullptr || !possible) {
     return;
   }
-  run->episodes.Add(header.order_index, header.first_transition, header.transition_count,
-                    header.ends_episode);
+  if (run->parts == 1 && header.first_field == 0) {
+    run->episodes.Add(header.order_index, header.first_transition, header.transition_count,
+                      header.ends_episode);
+  } else if (run->parts > 1 && header.transition_count == 1 && header.first_field >= 0) {
+    const int64_t part = std::min(header.first_field / run->fields_of_part, run->parts - 1);
+    run->episodes.Add(header.order_index, header.first_transition * run->parts + part, 1,
+                      header.ends_episode && part == run->parts - 1);
+  }
   NoteOrder(header.order_index, *run);
   if (run->actors.size() < kMaximumRecords) {
     run->actors.insert(header.actor_id);
@@ -223,6 +230,21 @@ void LogSummary::Take(const run_t& message) {
   if (RunTraffic* run = RunOf(IdentityOf(message))) {
     run->finished = run->finished || message.finished != 0;
     run->config_known = run->announcements.Add(message).has_value() || run->config_known;
+  }
+}
+
+/// Decides how many messages a transition takes. Begins to count anew if that is more than one.
+void LogSummary::Take(const world_t& message) {
+  RunTraffic* run = RunOf(IdentityOf(message));
+  const bool possible = message.state_size >= 1 && message.state_size <= kMaximumStateSize &&
+                        message.action_count >= 1 && message.action_count <= kMaximumActions;
+  if (run == nullptr || !possible || run->fields_of_part > 0) {
+    return;
+  }
+  run->fields_of_part = LayoutOf(message.state_size, message.action_count).fields;
+  run->parts = (message.state_size + run->fields_of_part - 1) / run->fields_of_part;
+  if (run->parts > 1) {
+    run->episodes = EpisodeCoverage();
   }
 }
 

@@ -30,12 +30,23 @@ struct RunTraffic {
   bool finished = false;           ///< the learner announced the end of the run
   std::optional<Interval> orders;  ///< lowest and highest index of the recorded orders; none: there are none
   int64_t committed_orders = 0;
+  /// Messages that a transition takes, and fields of its states in each but the last: more than one, and
+  /// fewer than all, if two states are too long for one message. FRESCO_WORLD says so.
+  int64_t parts = 1;
+  int64_t fields_of_part = 0;
+  /// Of parts of transitions. Before FRESCO_WORLD, the first part counts as the whole transition.
   EpisodeCoverage episodes;
   std::set<int64_t> actors;                        ///< ids of the actors that sent transitions
   std::optional<learner_status_t> learner_status;  ///< the last one
 
   /// The number of orders of which no transition was recorded.
   int64_t orders_without_transitions() const;
+  /// Counts in transitions: the recorded parts make up so many (rounded down), the missing parts of
+  /// incomplete episodes belong to so many at least (rounded up), and so many were recorded again (rounded
+  /// down).
+  int64_t transitions() const { return episodes.transitions() / parts; }
+  int64_t missing_transitions() const { return (episodes.missing_transitions() + parts - 1) / parts; }
+  int64_t repeated_transitions() const { return episodes.repeated_transitions() / parts; }
 };
 
 struct ActorTraffic {
@@ -72,6 +83,7 @@ class LogSummary {
   bool TakeMessage(std::span<const std::byte> message);
   void Take(const TransitionsHeader& header);
   void Take(const run_t& message);
+  void Take(const world_t& message);
   void Take(const orders_t& message);
   void Take(const actor_status_t& message);
   void Take(const learner_status_t& message);

@@ -20,10 +20,13 @@ std::optional<CommittedEpisode> LoggedEpisodes::Assembly::Add(const transitions_
   if (!FromWire(*world_, message, part_)) {
     return std::nullopt;
   }
-  auto [entry, is_new] = open_.try_emplace(part_.order_index, *world_, mask_options_);
+  auto [entry, is_new] = open_.try_emplace(part_.order_index, *world_);
   Ledger& ledger = entry->second;
   if (is_new) {
-    ledger.Write(Order{part_.order_index});
+    Order order;
+    order.index = part_.order_index;
+    order.seed = part_.seed;
+    ledger.Write(order);
   }
   if (ledger.Add(part_) == Ledger::Arrival::kCompleted) {
     std::optional<CommittedEpisode> complete = ledger.TakeNext();
@@ -36,20 +39,14 @@ std::optional<CommittedEpisode> LoggedEpisodes::Assembly::Add(const transitions_
   return std::nullopt;
 }
 
-LoggedEpisodes::LoggedEpisodes(LogSource source, RunIdentity identity, const World& world,
-                               MaskOptions mask_options)
-    : source_(std::move(source)),
-      identity_(identity),
-      world_(&world),
-      mask_options_(mask_options),
-      messages_(source_),
-      assembly_(world, mask_options) {
+LoggedEpisodes::LoggedEpisodes(LogSource source, RunIdentity identity, const World& world)
+    : source_(std::move(source)), identity_(identity), world_(&world), messages_(source_), assembly_(world) {
   Survey();
 }
 
 void LoggedEpisodes::Survey() {
   LogMessages messages(source_);
-  Assembly assembly(*world_, mask_options_);
+  Assembly assembly(*world_);
   orders_t orders{};
   weights_t weights{};
   while (const auto message = messages.Next()) {
@@ -103,7 +100,7 @@ std::optional<uint32_t> LoggedEpisodes::WeightsCrc(NetworkKind kind, int32_t ver
   return found == weights_crcs_.end() ? std::nullopt : std::optional(found->second);
 }
 
-Episode LoggedEpisodes::Take(int64_t order_index) {
+CommittedEpisode LoggedEpisodes::Take(int64_t order_index) {
   FRESCO_CHECK(whole_.contains(order_index));
   ahead_.erase(ahead_.begin(), ahead_.lower_bound(order_index));
   assembly_.Forget(order_index);
@@ -115,12 +112,12 @@ Episode LoggedEpisodes::Take(int64_t order_index) {
     if (message->DecodeAs(transitions_) && IsOurs(IdentityOf(transitions_)) &&
         transitions_.order_index >= order_index) {
       if (auto complete = assembly_.Add(transitions_)) {
-        ahead_.try_emplace(complete->order.index, std::move(complete->episode));
+        ahead_.try_emplace(complete->order.index, std::move(*complete));
       }
     }
   }
   const auto found = ahead_.find(order_index);
-  Episode episode = std::move(found->second);
+  CommittedEpisode episode = std::move(found->second);
   ahead_.erase(found);
   return episode;
 }

@@ -20,9 +20,9 @@ namespace fresco {
 
 class LoggedEpisodes {
  public:
-  /// `world` must outlive the object. `mask_options` are those of the recorded run. Throws UsageError if a
-  /// log can't be read.
-  LoggedEpisodes(LogSource source, RunIdentity identity, const World& world, MaskOptions mask_options);
+  /// `world` is that of the recorded run and must outlive the object. Throws UsageError if a log can't be
+  /// read.
+  LoggedEpisodes(LogSource source, RunIdentity identity, const World& world);
 
   /// The indices of the orders whose episode is complete in the logs.
   const std::set<int64_t>& whole() const { return whole_; }
@@ -38,15 +38,16 @@ class LoggedEpisodes {
   /// The number of messages left out because they are not authenticated with the key.
   int64_t refused() const { return refused_; }
 
-  /// Returns the complete episode of an order; CHECKs that whole() has its index. The indices must ascend
-  /// from call to call. Throws Failure if the logs have changed since the constructor read them.
-  Episode Take(int64_t order_index);
+  /// Returns the complete episode of an order, with what its messages say of the order (index and seed);
+  /// CHECKs that whole() has its index. The indices must ascend from call to call. Throws Failure if the logs
+  /// have changed since the constructor read them.
+  CommittedEpisode Take(int64_t order_index);
 
  private:
   /// Assembles episodes. Its memory is bounded, whatever is in a log.
   class Assembly {
    public:
-    Assembly(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
+    explicit Assembly(const World& world) : world_(&world) {}
     /// Adds the transitions of a message. Returns the episode if it is complete now.
     std::optional<CommittedEpisode> Add(const transitions_t& message);
     /// Drops the incomplete episodes of orders with a lower index.
@@ -54,7 +55,6 @@ class LoggedEpisodes {
 
    private:
     const World* world_;
-    MaskOptions mask_options_;
     OrderResult part_;
     std::map<int64_t, Ledger> open_;  // incomplete episodes by order index, each in a ledger of its own
   };
@@ -66,7 +66,6 @@ class LoggedEpisodes {
   LogSource source_;
   RunIdentity identity_;
   const World* world_;
-  MaskOptions mask_options_;
   std::set<int64_t> whole_;
   std::map<int64_t, OrderKind> kinds_;
   std::map<std::pair<NetworkKind, int32_t>, uint32_t> weights_crcs_;
@@ -77,7 +76,7 @@ class LoggedEpisodes {
   LogMessages messages_;
   Assembly assembly_;
   transitions_t transitions_{};
-  std::map<int64_t, Episode> ahead_;  // complete episodes that Take was not asked for yet
+  std::map<int64_t, CommittedEpisode> ahead_;  // complete episodes that Take was not asked for yet
 };
 
 }  // namespace fresco

@@ -71,13 +71,11 @@ LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string&
           : fmt::format("--run: the log does not contain run {}, but it contains{}", run_id, known));
 }
 
-void ExpectOrdersOfThisRelease(const LoggedRun& run) {
+void ExpectMessagesOfThisRelease(const LoggedRun& run) {
   if (run.protocol_version && *run.protocol_version != kProtocolVersion) {
     throw UsageError(
-        fmt::format("run {} was recorded with protocol version {}, but this program has version {}: its "
-                    "orders mean other episodes here, so the weights would differ; use the release that "
-                    "recorded it, or train another agent on its episodes (another schedule or agent, with "
-                    "--set)",
+        fmt::format("run {} was recorded with protocol version {}, but this program has version {} and can't "
+                    "read its transitions; use the release that recorded it",
                     IdentifierText(run.identity.run_id), *run.protocol_version, kProtocolVersion));
   }
 }

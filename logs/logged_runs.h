@@ -76,7 +76,7 @@ std::vector<LoggedRun> FindLoggedRuns(const LogSource& source);
 /// UsageError that lists the runs if there is no such run or if the text is empty and there are several.
 LoggedRun ChooseLoggedRun(const std::vector<LoggedRun>& runs, const std::string& run_id);
 
-/// Throws UsageError if another release recorded the run and its orders mean other episodes in this one.
-void ExpectOrdersOfThisRelease(const LoggedRun& run);
+/// Throws UsageError if another release recorded the run: this one can't read its transitions.
+void ExpectMessagesOfThisRelease(const LoggedRun& run);
 
 }  // namespace fresco

@@ -51,9 +51,8 @@ double SecondsSince(int64_t begin_us) {
 std::string ProgressText(const Trainer& trainer, int64_t episodes, double wall_s) {
   const TrainerProgress& progress = trainer.progress();
   const auto& best = trainer.best();
-  return fmt::format("episode {}/{}  updates {}  best average AoI {}  {:.0f} updates/s", progress.episodes,
-                     episodes, progress.updates,
-                     best ? fmt::format("{:.2f}", best->evaluation.figures.average_aoi) : "-",
+  return fmt::format("episode {}/{}  updates {}  best score {}  {:.0f} updates/s", progress.episodes,
+                     episodes, progress.updates, best ? fmt::format("{:.2f}", best->evaluation.score()) : "-",
                      static_cast<double>(progress.updates) / wall_s);
 }
 
@@ -138,9 +137,9 @@ std::string WithRetrainReport(const std::string& summary_json, const RetrainRepo
 RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Experiment& recorded,
                        const Experiment& chosen, Retraining::Use use, bool strict)
     : experiment_(chosen),
-      world_(chosen.scenario()),
+      recorded_(recorded),
       report_{source.paths, run, use},
-      episodes_(source, run.identity, world_, recorded.mask_options()) {
+      episodes_(source, run.identity, recorded_.world()) {
   report_.missing = episodes_.Missing();
   report_.totals = episodes_.totals();
   report_.refused = episodes_.refused();
@@ -150,7 +149,7 @@ RetrainRun::RetrainRun(const LogSource& source, const LoggedRun& run, const Expe
         RangesText(report_.missing)));
   }
   retraining_.emplace(
-      experiment_, world_, episodes_, use, strict,
+      experiment_, episodes_, use, strict,
       [this](const Trainer& trainer, const Evaluation& evaluation) { WriteEvaluation(trainer, evaluation); });
 }
 
@@ -166,8 +165,8 @@ std::string RetrainRun::Train(const std::filesystem::path& directory) {
   RunFolder::Make(directory);
   const FolderLock lock(directory);
   folder_.emplace(directory, experiment_);
-  OptimumSearch optimum(world_, {experiment_.run().optimum_limit_s(),
-                                 int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
+  OptimumSearch optimum(experiment_.world(), {experiment_.run().optimum_limit_s(),
+                                              int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
   LiveLine line(true);
   while (!StopSignal::Requested() && retraining_->Step()) {
     line.Show(
@@ -186,13 +185,12 @@ std::string RetrainRun::Train(const std::filesystem::path& directory) {
 std::string RetrainRun::Results(double wall_s, const OptimumResult& optimum) {
   const Trainer& trainer = retraining_->trainer();
   if (optimum.plan != nullptr) {
-    folder_->WriteOptimum(OptimumJson(world_, *optimum.plan));
+    folder_->WriteOptimum(OptimumJson(experiment_.world(), *optimum.plan));
   }
   folder_->WriteFinal(trainer.current(), trainer.progress());
   folder_->Finish();
   const std::string summary = WithRetrainReport(
-      SummaryJson({experiment_, world_, DrawIdentifier(), completed_, wall_s, trainer, {}, optimum}),
-      report_);
+      SummaryJson({experiment_, DrawIdentifier(), completed_, wall_s, trainer, {}, optimum}), report_);
   folder_->WriteSummary(summary);
   return summary;
 }

@@ -66,7 +66,7 @@ class RetrainRun {
   std::string Results(double wall_s, const OptimumResult& optimum);
 
   Experiment experiment_;
-  World world_;
+  Experiment recorded_;
   RetrainReport report_;
   LoggedEpisodes episodes_;
   std::optional<Retraining> retraining_;

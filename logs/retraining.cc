@@ -9,15 +9,14 @@
 
 namespace fresco {
 
-Retraining::Retraining(const Experiment& experiment, const World& world, LoggedEpisodes& episodes, Use use,
-                       bool strict, EvaluationHandler evaluated)
+Retraining::Retraining(const Experiment& experiment, LoggedEpisodes& episodes, Use use, bool strict,
+                       EvaluationHandler evaluated)
     : experiment_(experiment),
-      world_(&world),
       episodes_(&episodes),
       use_(use),
       strict_(strict),
-      flyer_(world, experiment, static_cast<int>(MaximumOrdersInFlight(experiment.schedule().window()))),
-      trainer_(experiment, world, Output(std::move(evaluated))) {
+      flyer_(experiment, static_cast<int>(MaximumOrdersInFlight(experiment.schedule()))),
+      trainer_(experiment, Output(std::move(evaluated))) {
   if (use == Use::kExperience) {
     const std::vector<int64_t> training = episodes.Training();
     experience_.assign(training.begin(), training.end());
@@ -92,7 +91,7 @@ Episode Retraining::EpisodeOf(const PendingOrder& pending) {
     return WaitForFlight(pending);
   }
   ++counts_.recorded_episodes;
-  return use_ == Use::kSameRun ? episodes_->Take(pending.order.index) : NextExperience();
+  return use_ == Use::kSameRun ? episodes_->Take(pending.order.index).episode : NextExperience();
 }
 
 /// Flies until the flight of this order, the first pending one, has ended.
@@ -108,18 +107,22 @@ Episode Retraining::WaitForFlight(const PendingOrder& pending) {
 
 /// Returns the next recorded training episode that this agent's masks allow.
 Episode Retraining::NextExperience() {
-  Episode episode;
+  const World& world = experiment_.world();
   while (!experience_.empty()) {
-    const Episode recorded = episodes_->Take(experience_.front());
+    CommittedEpisode recorded = episodes_->Take(experience_.front());
     experience_.pop_front();
-    if (FlyActions(*world_, experiment_.mask_options(), recorded.actions, episode)) {
+    if (!world.description().repeatable) {
+      return recorded.episode;
+    }
+    Episode episode;
+    if (FlyActions(world, recorded.order.seed, recorded.episode.actions, episode)) {
       return episode;
     }
     ++counts_.left_out;
   }
   throw Failure(fmt::format(
       "the recorded experience has run out after {} episodes: {} more have actions that the masks of this "
-      "configuration (agent.safe_action_mask, agent.coverage_mask) forbid",
+      "configuration forbid",
       counts_.recorded_episodes - 1, counts_.left_out));
 }
 

@@ -3,7 +3,7 @@
 //
 // With the recorded configuration, each order gets its own recorded episode; if the logs miss it, the episode
 // is flown again. An episode is a pure function of its order, so the result is that of the live run. With
-// another configuration in the same scenario, the recorded training episodes are experience for another
+// another configuration in the same world, the recorded training episodes are experience for another
 // agent: its n-th training order gets the n-th of them, whatever network flew it. Its evaluations are flown
 // with its own networks.
 #pragma once
@@ -25,7 +25,7 @@ class Retraining {
  public:
   enum class Use {
     kSameRun,     ///< the logs contain a run of exactly this configuration
-    kExperience,  ///< the logs contain the run of another agent in this scenario
+    kExperience,  ///< the logs contain the run of another agent in this world
   };
 
   struct Counts {
@@ -41,10 +41,10 @@ class Retraining {
 
   using EvaluationHandler = std::function<void(const Trainer& trainer, const Evaluation& evaluation)>;
 
-  /// `world` and `episodes` must outlive the object. `evaluated` is called for every evaluation. If `strict`
+  /// `episodes` must outlive the object. `evaluated` is called for every evaluation. If `strict`
   /// is set, the constructor and Step throw Failure if the logs miss an episode. The constructor throws
   /// UsageError if the logs contain too few training episodes (kExperience).
-  Retraining(const Experiment& experiment, const World& world, LoggedEpisodes& episodes, Use use, bool strict,
+  Retraining(const Experiment& experiment, LoggedEpisodes& episodes, Use use, bool strict,
              EvaluationHandler evaluated);
 
   /// Commits the next order. Returns false if there is none left.
@@ -69,7 +69,6 @@ class Retraining {
   Episode NextExperience();
 
   Experiment experiment_;
-  const World* world_;
   LoggedEpisodes* episodes_;
   Use use_;
   bool strict_;

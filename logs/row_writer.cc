@@ -58,9 +58,10 @@ void RowWriter::WriteCsvRow(const NamedRow& row) {
                  [](const auto& named, const std::string& name) { return named.first == name; });
   if (!fits) {
     throw Failure(
-        fmt::format("row {} has {} columns, but the table has {}: the logs contain runs of different "
-                    "scenarios; export one of them (--run ID, see fresco log info) or use --format jsonl",
-                    rows_ + 1, row.size(), header_.size()));
+        fmt::format("row {} has other columns than the table: the logs contain runs of different worlds, or "
+                    "states that are too long for one message; export one of the runs (--run ID, see fresco "
+                    "log info) or use --format jsonl",
+                    rows_ + 1));
   }
   std::vector<CsvCell> cells;
   for (const auto& [name, cell] : row) {

@@ -24,6 +24,7 @@ Channels ChannelsWithPrefix(const std::string& prefix) {
           prefix + "_WEIGHTS_TARGET",
           prefix + "_ACTOR_STATUS",
           prefix + "_LEARNER_STATUS",
+          prefix + "_WORLD",
           prefix + "_SCENARIO",
           prefix + "_FLIGHT"};
 }

@@ -15,6 +15,7 @@ struct Channels {
   std::string weights_target;
   std::string actor_status;
   std::string learner_status;
+  std::string world;
   std::string scenario;
   std::string flight;
 };

@@ -109,7 +109,7 @@ void FillScalar(Message& message, const FieldDescriptor& field) {
     case FieldDescriptor::CPPTYPE_STRING:
       return reflection.SetString(&message, &field, field.default_value_string());
     default:
-      return;
+      CheckFailed(__FILE_NAME__, __LINE__, field.full_name().c_str());  // a type that no configuration uses
   }
 }
 

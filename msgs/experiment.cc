@@ -4,6 +4,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "core/bytes.h"
@@ -11,39 +12,10 @@
 #include "core/files.h"
 #include "msgs/channels.h"
 #include "msgs/config_reflection.h"
-#include "msgs/wire.h"
-#include "worlds/uav/physics.h"
-#include "worlds/uav/world.h"
+#include "msgs/worlds.h"
 
 namespace fresco {
 namespace {
-
-void SetCell(proto::Cell& cell, int column, int row) {
-  cell.set_column(column);
-  cell.set_row(row);
-}
-
-/// Fills in what Protobuf's field defaults can't express: submessages, and one choice of each oneof.
-void FillScenario(proto::Scenario& scenario) {
-  scenario.mutable_grid();
-  scenario.mutable_radio();
-  scenario.mutable_rotor();
-  scenario.mutable_reward();
-  if (!scenario.has_start()) {
-    SetCell(*scenario.mutable_start(), 10, 0);
-  }
-  if (!scenario.has_stop()) {
-    SetCell(*scenario.mutable_stop(), 10, 19);
-  }
-  SetCell(*scenario.mutable_start(), scenario.start().column(), scenario.start().row());
-  SetCell(*scenario.mutable_stop(), scenario.stop().column(), scenario.stop().row());
-  if (scenario.sensor().empty()) {
-    scenario.mutable_random_sensors();
-  }
-  if (scenario.coverage_case() == proto::Scenario::COVERAGE_NOT_SET) {
-    scenario.set_coverage_radius_m(100);
-  }
-}
 
 void FillAgentAndSchedule(proto::ExperimentConfig& config) {
   proto::Agent& agent = *config.mutable_agent();
@@ -60,63 +32,6 @@ void FillAgentAndSchedule(proto::ExperimentConfig& config) {
     schedule.mutable_linear();
   }
   config.mutable_run();
-}
-
-void CheckAlternatives(const proto::ExperimentConfig& config, const std::string& origin) {
-  if (config.scenario().has_random_sensors() && !config.scenario().sensor().empty()) {
-    throw UsageError(
-        fmt::format("{}: scenario.sensor ({} given) and scenario.random_sensors contradict each other; "
-                    "allowed: one of the two",
-                    origin, config.scenario().sensor_size()));
-  }
-}
-
-Rotor ToRotor(const proto::Rotor& rotor) {
-  return {rotor.blade_profile_power_w(),
-          rotor.induced_power_w(),
-          rotor.tip_speed_mps(),
-          rotor.induced_velocity_mps(),
-          rotor.drag_ratio(),
-          rotor.air_density_kgpm3(),
-          rotor.solidity(),
-          rotor.disk_area_m2()};
-}
-
-Scenario ToScenario(const proto::Scenario& from) {
-  Scenario scenario;
-  scenario.columns = from.grid().columns();
-  scenario.rows = from.grid().rows();
-  scenario.cell_m = from.grid().cell_m();
-  scenario.slots = from.slots();
-  scenario.slot_s = from.slot_s();
-  scenario.start = {from.start().column(), from.start().row()};
-  scenario.stop = {from.stop().column(), from.stop().row()};
-  for (const proto::Sensor& sensor : from.sensor()) {
-    scenario.sensors.push_back({sensor.x_m(), sensor.y_m(), sensor.weight()});
-  }
-  if (from.has_random_sensors()) {
-    scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m,
-                                     from.random_sensors().count(), from.random_sensors().seed());
-  }
-  scenario.radio = {from.radio().bandwidth_hz(), from.radio().update_bits(), from.radio().noise_dbm(),
-                    from.radio().gain_at_1m_db(), from.radio().altitude_m()};
-  scenario.coverage_radius_m = from.has_transmit_power_w()
-                                   ? CoverageRadius(scenario.radio, scenario.slot_s, from.transmit_power_w())
-                                   : from.coverage_radius_m();
-  scenario.initial_energy_j = from.initial_energy_j();
-  scenario.rotor = ToRotor(from.rotor());
-  scenario.speed_mps = from.speed_mps();
-  scenario.reward = {from.reward().k1(), from.reward().k2(), from.reward().k3()};
-  if (from.has_maximum_aoi()) {
-    scenario.maximum_aoi = from.maximum_aoi();
-  }
-  return scenario;
-}
-
-Scenario CheckedScenario(const proto::Scenario& from) {
-  Scenario scenario = ToScenario(from);
-  const World checked(scenario);
-  return scenario;
 }
 
 void CheckBatch(const char* field, int64_t columns, const MlpShape& shape) {
@@ -143,6 +58,31 @@ void CheckNetwork(const Experiment& experiment) {
   CheckBatch("run.environments_per_actor", experiment.run().environments_per_actor(), shape);
 }
 
+/// Calls the function. An error that it throws becomes a UsageError that names the origin.
+void WithOrigin(const std::string& origin, const std::function<void()>& function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    throw UsageError(origin + ": " + error.what());
+  }
+}
+
+/// A setting changes the world that a configuration has, and never replaces it by another one.
+void CheckSettingKeepsWorld(const proto::ExperimentConfig& config, const std::string& path,
+                            const std::string& origin) {
+  const auto& descriptor = *proto::ExperimentConfig::descriptor();
+  const auto* field = descriptor.FindFieldByName(path.substr(0, path.find_first_of(".[")));
+  if (field == nullptr || field->containing_oneof() == nullptr ||
+      config.world_case() == proto::ExperimentConfig::WORLD_NOT_SET ||
+      config.world_case() == field->number()) {
+    return;
+  }
+  throw UsageError(
+      fmt::format("--set {}: the world of {} is {}, and a setting can't replace it; choose a configuration "
+                  "of the world {} with --config",
+                  path, origin, descriptor.FindFieldByNumber(config.world_case())->name(), field->name()));
+}
+
 std::string Print(const google::protobuf::Message& message) {
   std::string text;
   google::protobuf::TextFormat::PrintToString(message, &text);
@@ -167,27 +107,34 @@ Experiment Experiment::Parse(const std::string& text, const std::string& origin,
   proto::ExperimentConfig config;
   ParseText(text, origin, config);
   for (const auto& [path, value] : settings) {
+    CheckSettingKeepsWorld(config, path, origin);
     SetField(config, path, value);
   }
   return Make(std::move(config), origin);
+}
+
+std::string Experiment::CodeIn(const std::string& text, const std::string& origin) {
+  proto::ExperimentConfig config;
+  ParseText(text, origin, config);
+  return CodeOf(config);
 }
 
 Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& origin) {
   Experiment experiment;
   proto::ExperimentConfig& config = experiment.config_;
   config = std::move(given);
-  FillScenario(*config.mutable_scenario());
+  WithOrigin(origin, [&] { CompleteWorld(config); });
   FillAgentAndSchedule(config);
   FillDefaults(config);
-  CheckAlternatives(config, origin);
   CheckRanges(config, origin);
-  try {
+  WithOrigin(origin, [&] {
     ChannelsWithPrefix(config.run().channel_prefix());
-    experiment.scenario_ = CheckedScenario(config.scenario());
+    experiment.world_ = MakeWorld(config);
+    if (!config.agent().has_discount()) {
+      config.mutable_agent()->set_discount(experiment.world().description().discount);
+    }
     CheckNetwork(experiment);
-  } catch (const Error& error) {
-    throw UsageError(origin + ": " + error.what());
-  }
+  });
   const std::string canonical = experiment.CanonicalText();
   experiment.hash_ = std::max(Crc32c(std::as_bytes(std::span(canonical))), 1u);
   return experiment;
@@ -198,19 +145,22 @@ Experiment Experiment::Load(const std::string& path, const Settings& settings) {
 }
 
 MlpShape Experiment::network_shape() const {
-  const int sensors = static_cast<int>(scenario_.sensors.size());
-  std::vector<int> sizes = {NetworkInput::Size(sensors, network_input_options())};
+  std::vector<int> sizes = {world().observation_size()};
   sizes.insert(sizes.end(), agent().hidden_layers().begin(), agent().hidden_layers().end());
-  sizes.push_back(kMoves * (sensors + 1));
+  sizes.push_back(world().actions());
   return MlpShape(sizes);
-}
-
-MaskOptions Experiment::mask_options() const {
-  return {agent().safe_action_mask(), agent().coverage_mask()};
 }
 
 std::string Experiment::Text() const {
   return Print(config_);
+}
+
+std::string Experiment::WorldText() const {
+  proto::ExperimentConfig world = config_;
+  world.clear_agent();
+  world.clear_schedule();
+  world.clear_run();
+  return Print(world);
 }
 
 std::string Experiment::CanonicalText() const {

@@ -3,19 +3,19 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "msgs/proto/experiment.pb.h"
 #include "nn/mlp.h"
-#include "worlds/uav/environment.h"
-#include "worlds/uav/network_input.h"
-#include "worlds/uav/scenario.h"
+#include "worlds/world.h"
 
 namespace fresco {
 
-/// Settings of single fields as (path, value), for example {"schedule.seed", "3"}; later ones win.
+/// Settings of single fields as (path, value), for example {"schedule.seed", "3"}; later ones win. A setting
+/// of another world than the configuration's is an error.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// Splits each path=value of the command line: {"schedule.seed=3"} becomes {{"schedule.seed", "3"}}. Throws
@@ -40,29 +40,33 @@ class Experiment {
   /// Does the same with a configuration message that the program built; there are no settings to apply.
   static Experiment Make(proto::ExperimentConfig config, const std::string& origin);
 
+  /// The path of code that is not Fresco's and that the world of a configuration (its text) would run; empty
+  /// if there is none. Whoever gets a configuration from the bus asks before Parse, which runs this code in
+  /// another process. Throws UsageError if the text does not parse.
+  static std::string CodeIn(const std::string& text, const std::string& origin);
+
   const proto::ExperimentConfig& config() const { return config_; }
   const proto::Agent& agent() const { return config_.agent(); }
   const proto::Schedule& schedule() const { return config_.schedule(); }
   const proto::Run& run() const { return config_.run(); }
-  const Scenario& scenario() const { return scenario_; }
+  /// The world. It lives as long as this object or a copy of it.
+  const World& world() const { return *world_; }
 
-  /// The layer sizes of this experiment's network: its inputs are those of NetworkInput
-  /// (worlds/uav/network_input.h), its outputs the 5 (N + 1) actions.
+  /// The layer sizes of this experiment's network: from an observation of the world to its actions.
   MlpShape network_shape() const;
-  NetworkInputOptions network_input_options() const { return {agent().sensor_geometry()}; }
-  /// Which actions the agent's masks forbid.
-  MaskOptions mask_options() const;
 
   /// The complete configuration in text format, with every default written out.
   std::string Text() const;
-  /// The part of the configuration that decides the weights (scenario, agent, schedule), in text format.
+  /// The part of the configuration that defines the world, in text format.
+  std::string WorldText() const;
+  /// The part of the configuration that decides the weights (world, agent, schedule), in text format.
   std::string CanonicalText() const;
   /// CRC-32C of CanonicalText(); never 0. Messages carry it as `config_hash`.
   uint32_t hash() const { return hash_; }
 
  private:
   proto::ExperimentConfig config_;
-  Scenario scenario_;
+  std::shared_ptr<const World> world_;
   uint32_t hash_ = 0;
 };
 

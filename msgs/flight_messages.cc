@@ -7,6 +7,8 @@
 namespace fresco {
 namespace {
 
+static_assert(kMaximumSensors == flight_t::MAXIMUM_SENSOR_COUNT);
+
 /// A message with everything but the sensors.
 scenario_t FieldOf(const Scenario& scenario) {
   scenario_t message{};
@@ -35,7 +37,7 @@ void SetSensors(std::span<const Sensor> sensors, scenario_t& message) {
   }
 }
 
-void SetState(const World& world, const State& state, flight_t& message) {
+void SetState(const UavWorld& world, const UavState& state, flight_t& message) {
   message.slot = state.slot;
   message.slots = world.scenario().slots;
   message.column = static_cast<int16_t>(state.cell.column);
@@ -49,9 +51,14 @@ void SetState(const World& world, const State& state, flight_t& message) {
 
 }  // namespace
 
-std::vector<scenario_t> ScenarioMessages(const Scenario& scenario) {
-  const std::span<const Sensor> sensors = scenario.sensors;
+std::vector<scenario_t> ScenarioMessages(const World& world) {
   std::vector<scenario_t> messages;
+  const UavWorld* uav = AsUavWorld(world);
+  if (uav == nullptr) {
+    return messages;
+  }
+  const Scenario& scenario = uav->scenario();
+  const std::span<const Sensor> sensors = scenario.sensors;
   for (size_t first = 0; first < sensors.size(); first += kMaximumSensorsPerScenario) {
     scenario_t message = FieldOf(scenario);
     message.first_sensor = static_cast<int32_t>(first);
@@ -62,16 +69,17 @@ std::vector<scenario_t> ScenarioMessages(const Scenario& scenario) {
   return messages;
 }
 
-std::vector<flight_t> FlightMessages(const World& world, const Episode& flight, const std::string& policy) {
+std::vector<flight_t> FlightMessages(const UavWorld& world, const Episode& flight,
+                                     const std::string& policy) {
   std::vector<flight_t> messages;
   flight_t message{};
   message.policy = policy.substr(0, kMaximumPolicyBytes);
-  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
     const bool last = slot == flight.actions.size();
     const Action action = ActionIn(world, flight, slot);
-    SetState(world, flight.states[slot], message);
+    SetState(world, StateIn(flight, slot), message);
     message.remaining_energy_j = static_cast<float>(EnergyIn(world, flight, slot));
-    message.outcome = static_cast<int8_t>(last ? flight.outcome : Outcome::kFlying);
+    message.outcome = static_cast<int8_t>(last ? OutcomeOf(flight) : Outcome::kFlying);
     message.move = static_cast<int8_t>(action.move);
     message.scheduled = static_cast<int16_t>(action.schedule);
     message.reward = last ? 0.0f : flight.rewards[slot];

@@ -33,7 +33,7 @@ RunIdentity IdentityAt(std::span<const std::byte> bytes) {
 size_t TransitionsBytes(std::span<const std::byte> encoding) {
   const auto count = [&](size_t offset) { return static_cast<size_t>(IntegerAt<int32_t>(encoding, offset)); };
   return Fields::EncodedBytes(count(Fields::transition_count_offset), count(Fields::state_count_offset),
-                              count(Fields::sensor_count_offset), count(Fields::mask_size_offset));
+                              count(Fields::field_count_offset), count(Fields::mask_size_offset));
 }
 
 }  // namespace
@@ -69,7 +69,8 @@ std::optional<TransitionsHeader> PeekTransitions(std::span<const std::byte> byte
                            IntegerAt<int64_t>(encoding, Fields::order_index_offset),
                            IntegerAt<int64_t>(encoding, Fields::actor_id_offset),
                            IntegerAt<int32_t>(encoding, Fields::first_transition_offset),
-                           IntegerAt<int8_t>(encoding, Fields::outcome_offset) != 0};
+                           IntegerAt<int32_t>(encoding, Fields::first_field_offset),
+                           IntegerAt<int8_t>(encoding, Fields::ending_offset) != 0};
 }
 
 }  // namespace fresco

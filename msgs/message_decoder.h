@@ -78,7 +78,8 @@ struct TransitionsHeader {
   int64_t order_index = 0;
   int64_t actor_id = 0;
   int32_t first_transition = 0;
-  bool ends_episode = false;  ///< the last of these transitions is terminal
+  int32_t first_field = 0;
+  bool ends_episode = false;  ///< the episode ends with the last of these transitions
 };
 
 /// Reads the header if the bytes are a valid transitions_t (its CRC is checked), with or without an

@@ -8,74 +8,60 @@
 namespace fresco {
 namespace {
 
-constexpr int FittingTransitions(int sensors) {
-  const auto mask_size = static_cast<size_t>(kMoves * (sensors + 1) + 7) / 8;
-  size_t fitting = 0;
-  while (Description<transitions_t>::EncodedBytes(fitting + 1, fitting + 2, static_cast<size_t>(sensors),
-                                                  mask_size) <= kMaximumEncodedBytes) {
-    ++fitting;
-  }
-  return static_cast<int>(fitting);
+constexpr size_t EncodedBytes(int transitions, int fields, int actions) {
+  const auto count = static_cast<size_t>(transitions);
+  return Description<transitions_t>::EncodedBytes(count, count + 1, static_cast<size_t>(fields),
+                                                  static_cast<size_t>(actions + 7) / 8);
 }
-static_assert(FittingTransitions(kMaximumSensors) >= 1);
-static_assert(FittingTransitions(1) <= kMaximumTransitionsPerMessage);
-static_assert(kMaximumSensors == transitions_t::MAXIMUM_SENSOR_COUNT);
-static_assert(kMaximumSensors == flight_t::MAXIMUM_SENSOR_COUNT);
+static_assert(EncodedBytes(1, 1, kMaximumActions) <= kMaximumEncodedBytes);
+static_assert(EncodedBytes(kMaximumTransitionsPerMessage + 1, 1, 1) > kMaximumEncodedBytes);
+static_assert(EncodedBytes(1, transitions_t::MAXIMUM_FIELD_COUNT, 1) > kMaximumEncodedBytes);
+static_assert(8 * transitions_t::MAXIMUM_MASK_SIZE >= kMaximumActions);
 
-void AddState(const State& state, transitions_t& message) {
-  message.column.push_back(static_cast<int16_t>(state.cell.column));
-  message.row.push_back(static_cast<int16_t>(state.cell.row));
-  message.time_margin.push_back(static_cast<int16_t>(state.time_margin));
-  message.energy_margin_j.push_back(state.energy_margin_j);
-  message.aoi.push_back(state.aoi);
-}
-
-void AddTransition(const OrderResult& result, int transition, transitions_t& message) {
-  const size_t i = static_cast<size_t>(transition);
-  const auto mask = result.episode.next_masks.begin() + transition * message.mask_size;
-  message.action.push_back(result.episode.actions[i]);
-  message.reward.push_back(result.episode.rewards[i]);
-  message.td_error.push_back(result.td_errors[i]);
-  message.next_mask.emplace_back(mask, mask + message.mask_size);
-}
-
-transitions_t MessageOf(const World& world, const OrderResult& result, int first, int count) {
+transitions_t MessageOf(const World& world, const OrderResult& result, MessageLayout part, int first,
+                        int first_field) {
   const Episode& episode = result.episode;
   transitions_t message{};
-  message.transition_count = count;
-  message.state_count = count + 1;
-  message.sensor_count = world.sensors();
-  message.mask_size = MaskSize(world);
+  message.transition_count = part.transitions;
+  message.state_count = part.transitions + 1;
+  message.field_count = part.fields;
+  message.mask_size = MaskSize(world.actions());
   message.order_index = result.order_index;
+  message.seed = static_cast<int64_t>(result.seed);
   message.first_transition = first;
-  message.outcome =
-      static_cast<int8_t>(first + count == episode.transitions() ? episode.outcome : Outcome::kFlying);
-  for (int i = first; i <= first + count; ++i) {
-    AddState(episode.states[static_cast<size_t>(i)], message);
+  message.first_field = first_field;
+  message.ending =
+      static_cast<int8_t>(first + part.transitions == episode.transitions() ? episode.ending : Ending::kNone);
+  for (int i = first; i <= first + part.transitions; ++i) {
+    const auto fields = episode.state(static_cast<size_t>(i))
+                            .subspan(static_cast<size_t>(first_field), static_cast<size_t>(part.fields));
+    message.state.emplace_back(fields.begin(), fields.end());
   }
-  for (int i = first; i < first + count; ++i) {
-    AddTransition(result, i, message);
+  for (int i = first; i < first + part.transitions; ++i) {
+    const auto at = static_cast<size_t>(i);
+    const auto mask = episode.next_masks.begin() + i * message.mask_size;
+    message.action.push_back(episode.actions[at]);
+    message.reward.push_back(episode.rewards[at]);
+    message.td_error.push_back(result.td_errors[at]);
+    message.next_mask.emplace_back(mask, mask + message.mask_size);
   }
   return message;
 }
 
-bool SizesMatch(const World& world, const transitions_t& message) {
-  return message.transition_count >= 1 && message.state_count == message.transition_count + 1 &&
-         message.sensor_count == world.sensors() && message.mask_size == MaskSize(world) &&
-         message.first_transition >= 0 &&
-         message.first_transition + message.transition_count <= world.maximum_transitions() &&
-         message.order_index >= 0 && message.outcome >= 0 && message.outcome <= 3;
+/// Whether the message has whole states or one of the parts that LayoutOf cuts them into.
+bool FieldsMatch(const World& world, const transitions_t& message) {
+  const int size = world.state_size();
+  const int step = LayoutOf(world).fields;
+  return message.first_field >= 0 && message.first_field < size && message.first_field % step == 0 &&
+         message.field_count == std::min(step, size - message.first_field);
 }
 
-bool ReadState(const World& world, const transitions_t& message, size_t i, State& state) {
-  state.slot = message.first_transition + static_cast<int>(i) + 1;
-  state.cell = {message.column[i], message.row[i]};
-  state.time_margin = message.time_margin[i];
-  state.energy_margin_j = message.energy_margin_j[i];
-  state.aoi = message.aoi[i];
-  return world.OnGrid(state.cell) && std::isfinite(state.energy_margin_j) &&
-         std::all_of(state.aoi.begin(), state.aoi.end(),
-                     [&](int16_t aoi) { return aoi >= 1 && aoi <= world.scenario().slots; });
+bool SizesMatch(const World& world, const transitions_t& message) {
+  return message.transition_count >= 1 && message.state_count == message.transition_count + 1 &&
+         FieldsMatch(world, message) && message.mask_size == MaskSize(world.actions()) &&
+         message.first_transition >= 0 &&
+         message.first_transition <= world.longest_episode() - message.transition_count &&
+         message.order_index >= 0 && message.ending >= 0 && message.ending <= 2;
 }
 
 bool ReadTransition(const World& world, const transitions_t& message, size_t i, OrderResult& result) {
@@ -113,19 +99,32 @@ bool FromWire(const order_t& message, Order& order) {
          message.current_version >= 0 && message.target_version >= 0 && message.attempt >= 0;
 }
 
-int TransitionsPerMessage(int sensors) {
-  FRESCO_CHECK(sensors >= 1 && sensors <= kMaximumSensors);
-  return FittingTransitions(sensors);
+MessageLayout LayoutOf(int state_size, int actions) {
+  MessageLayout layout{0, state_size};
+  while (EncodedBytes(layout.transitions + 1, state_size, actions) <= kMaximumEncodedBytes) {
+    ++layout.transitions;
+  }
+  if (layout.transitions == 0) {
+    layout.transitions = 1;
+    while (EncodedBytes(1, layout.fields, actions) > kMaximumEncodedBytes) {
+      --layout.fields;
+    }
+  }
+  return layout;
 }
 
 void SplitResult(const World& world, const OrderResult& result, int64_t actor_id,
                  const std::function<void(const transitions_t&)>& send) {
-  const int step = TransitionsPerMessage(world.sensors());
+  const MessageLayout layout = LayoutOf(world);
   const int transitions = result.episode.transitions();
-  for (int first = 0; first < transitions; first += step) {
-    transitions_t message = MessageOf(world, result, first, std::min(step, transitions - first));
-    message.actor_id = actor_id;
-    send(message);
+  for (int first = 0; first < transitions; first += layout.transitions) {
+    for (int first_field = 0; first_field < world.state_size(); first_field += layout.fields) {
+      const MessageLayout part = {std::min(layout.transitions, transitions - first),
+                                  std::min(layout.fields, world.state_size() - first_field)};
+      transitions_t message = MessageOf(world, result, part, first, first_field);
+      message.actor_id = actor_id;
+      send(message);
+    }
   }
 }
 
@@ -136,12 +135,15 @@ bool FromWire(const World& world, const transitions_t& message, OrderResult& res
     return false;
   }
   result.order_index = message.order_index;
+  result.seed = static_cast<uint64_t>(message.seed);
   result.first_transition = message.first_transition;
-  result.episode.outcome = static_cast<Outcome>(message.outcome);
-  bool valid = true;
-  for (size_t i = 0; valid && i < static_cast<size_t>(message.state_count); ++i) {
-    valid = ReadState(world, message, i, result.episode.states.emplace_back());
+  result.first_field = message.first_field;
+  result.episode.ending = static_cast<Ending>(message.ending);
+  for (const std::vector<float>& state : message.state) {
+    result.episode.states.insert(result.episode.states.end(), state.begin(), state.end());
   }
+  bool valid = std::all_of(result.episode.states.begin(), result.episode.states.end(),
+                           [](float value) { return std::isfinite(value); });
   for (size_t i = 0; valid && i < static_cast<size_t>(message.transition_count); ++i) {
     valid = ReadTransition(world, message, i, result);
   }
@@ -149,7 +151,7 @@ bool FromWire(const World& world, const transitions_t& message, OrderResult& res
 }
 
 int64_t LongestResultBytes(const World& world) {
-  const auto td_errors = world.maximum_transitions() * static_cast<int64_t>(sizeof(float));
+  const auto td_errors = world.longest_episode() * static_cast<int64_t>(sizeof(float));
   return LongestEpisodeBytes(world) + static_cast<int64_t>(sizeof(OrderResult) - sizeof(Episode)) + td_errors;
 }
 

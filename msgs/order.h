@@ -6,8 +6,9 @@
 #include <functional>
 #include <vector>
 
+#include "msgs/proto/experiment.pb.h"
 #include "msgs/wire.h"
-#include "worlds/uav/episode.h"
+#include "worlds/episode.h"
 
 namespace fresco {
 
@@ -19,25 +20,28 @@ struct Order {
   int64_t index = 0;                   ///< position in the run's sequence of orders, 0 .. 2^32 - 1
   OrderKind kind = OrderKind::kTrain;  ///< train or evaluate
   double epsilon = 0;                  ///< probability of a random action, 0 .. 1; 0 for an evaluation
-  uint64_t seed = 0;                   ///< seed of the episode's random draws; an evaluation draws nothing
+  uint64_t seed = 0;                   ///< of the episode: where it begins and how it explores
   int32_t current_version = 0;         ///< version of the network that chooses the actions, >= 0
   int32_t target_version = 0;  ///< version of the network used in the temporal-difference errors, >= 0
   bool operator==(const Order&) const = default;
 };
 
-/// The largest number of orders in flight in a run whose schedule.window is `window` (>= 1): `window`
-/// training orders, and at most one evaluation for each of them.
-inline int64_t MaximumOrdersInFlight(int32_t window) {
-  return 2 * int64_t{window};
+/// The largest number of orders in flight in a run: schedule.window training orders, and at most one
+/// evaluation for each of them.
+inline int64_t MaximumOrdersInFlight(const proto::Schedule& schedule) {
+  return int64_t{schedule.window()} * (1 + int64_t{schedule.evaluation_episodes()});
 }
 
 /// Which of the two networks is meant.
 enum class NetworkKind : int8_t { kCurrent = 0, kTarget = 1 };
 
-/// The result of an order: its complete episode, or consecutive transitions of it, as one message holds.
+/// The result of an order: its complete episode, or a part of it, as one message holds: consecutive
+/// transitions, with all fields of their states or consecutive ones of these.
 struct OrderResult {
   int64_t order_index = 0;
-  int32_t first_transition = 0;  ///< position of the first of them in the order's episode, 0 .. T - 2
+  uint64_t seed = 0;             ///< the order's
+  int32_t first_transition = 0;  ///< position of the first of them in the order's episode, 0, 1, ..
+  int32_t first_field = 0;       ///< position of the first field of episode.states in a state
   Episode episode;
   std::vector<float> td_errors;  ///< temporal-difference error of each transition
 };
@@ -49,16 +53,25 @@ order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt);
 /// Reads an order from a message. Returns false if a value is out of range; `order` is then unspecified.
 bool FromWire(const order_t& message, Order& order);
 
-/// How many transitions fit one message for this many sensors; at least 1 for up to kMaximumSensors.
-int TransitionsPerMessage(int sensors);
+/// How an episode is cut into messages: transitions in each, and fields of their states in each.
+struct MessageLayout {
+  int transitions = 0;  ///< 1 or more; 1 if a message does not have all fields
+  int fields = 0;       ///< all, unless two states are too long for one message
+  bool operator==(const MessageLayout&) const = default;
+};
+/// For states of `state_size` fields, 1 to kMaximumStateSize, and 1 to kMaximumActions `actions`.
+MessageLayout LayoutOf(int state_size, int actions);
+inline MessageLayout LayoutOf(const World& world) {
+  return LayoutOf(world.state_size(), world.actions());
+}
 
 /// Splits a complete result into messages, and calls `send` with each, first transitions first. They have no
 /// run and no time yet (MessageBus::Publish).
 void SplitResult(const World& world, const OrderResult& result, int64_t actor_id,
                  const std::function<void(const transitions_t&)>& send);
 
-/// Reads the part of a result that a message holds. Returns false if sizes, actions, cells or ages do not fit
-/// the world, or a value is not finite; `result` is then unspecified.
+/// Reads the part of a result that a message holds. Returns false if sizes or actions do not fit the world,
+/// or a value is not finite; `result` is then unspecified.
 bool FromWire(const World& world, const transitions_t& message, OrderResult& result);
 
 /// The memory of the longest result in this world, the object itself included, bytes.

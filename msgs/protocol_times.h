@@ -7,9 +7,10 @@
 namespace fresco {
 
 // The learner sends:
-inline constexpr int64_t kRunPeriodUs = 500'000;            ///< FRESCO_RUN, always
-inline constexpr int64_t kAskedRunPeriodUs = 50'000;        ///< and at most so often if an actor asks for it
-inline constexpr int64_t kScenarioPeriodUs = 1'000'000;     ///< FRESCO_SCENARIO, also from `fresco fly`
+inline constexpr int64_t kRunPeriodUs = 500'000;      ///< FRESCO_RUN, always
+inline constexpr int64_t kAskedRunPeriodUs = 50'000;  ///< and at most so often if an actor asks for it
+inline constexpr int64_t kWorldPeriodUs =
+    1'000'000;  ///< FRESCO_WORLD and FRESCO_SCENARIO, the latter also from `fresco fly`
 inline constexpr int64_t kLearnerStatusPeriodUs = 200'000;  ///< FRESCO_LEARNER_STATUS
 inline constexpr int64_t kNewOrdersPeriodUs = 2'000;     ///< FRESCO_ORDERS, if an order is new or due again
 inline constexpr int64_t kOrderRepeatPeriodUs = 60'000;  ///< an order without a complete result

@@ -15,7 +15,7 @@
 namespace fresco {
 
 /// Raised with every change to a .lcm file.
-inline constexpr int32_t kProtocolVersion = 4;
+inline constexpr int32_t kProtocolVersion = 5;
 
 /// Every message fits one Ethernet frame: LCM drops a message if one of its fragments is lost.
 inline constexpr size_t kMaximumMessageBytes = 1350;
@@ -37,6 +37,7 @@ inline constexpr int kMaximumSensorsPerScenario = scenario_t::MAXIMUM_SENSOR_COU
 inline constexpr size_t kMaximumHostBytes = actor_status_t::MAXIMUM_HOST_BYTES;
 inline constexpr size_t kMaximumWaitingForBytes = learner_status_t::MAXIMUM_WAITING_FOR_BYTES;
 inline constexpr size_t kMaximumWarningBytes = learner_status_t::MAXIMUM_WARNING_BYTES;
+inline constexpr size_t kMaximumEntriesBytes = world_t::MAXIMUM_ENTRIES_BYTES;
 inline constexpr size_t kMaximumPolicyBytes = flight_t::MAXIMUM_POLICY_BYTES;
 inline constexpr int kValuesPerChunk = weights_t::MAXIMUM_VALUE_COUNT;
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "worlds/uav/world.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 

@@ -17,7 +17,7 @@ constexpr int64_t kLeastWidest = 100;
 
 class Planner {
  public:
-  Planner(const World& world, const PlannerOptions& options)
+  Planner(const UavWorld& world, const PlannerOptions& options)
       : world_(world),
         options_(options),
         problem_(world),
@@ -37,7 +37,7 @@ class Planner {
     return static_cast<double>(cost) * problem_.average_aoi_per_unit();
   }
 
-  const World& world_;
+  const UavWorld& world_;
   const PlannerOptions& options_;
   PlannerProblem problem_;
   WorkMeter meter_;
@@ -54,7 +54,7 @@ bool Planner::KeepGoing(const SearchProgress& progress) const {
 
 int64_t Planner::CostOf(const Episode& flight) const {
   int64_t cost = 0;
-  for (const State& state : flight.states) {
+  for (const UavState& state : StatesIn(flight)) {
     for (size_t n = 0; n < problem_.weights().size(); ++n) {
       cost += problem_.weights()[n] * state.aoi[static_cast<size_t>(problem_.sensors()[n])];
     }
@@ -65,7 +65,7 @@ int64_t Planner::CostOf(const Episode& flight) const {
 void Planner::BeginWithBaselines() {
   for (const BaselineKind kind : {BaselineKind::kAoi, BaselineKind::kDistance}) {
     Episode flight = FlyBaseline(world_, kind);
-    FRESCO_CHECK(flight.arrived());
+    FRESCO_CHECK(Arrived(flight));
     if (CostOf(flight) < cost_) {
       cost_ = CostOf(flight);
       plan_.flight = std::move(flight);
@@ -93,14 +93,14 @@ void Planner::Use(const LabelSearchResult& result) {
   proved_ = std::max(proved_, result.LowerBound(cost_));
   if (result.cost < cost_) {
     size_t next = 0;
-    plan_.flight = Fly(world_, [&](const Environment&) {
+    plan_.flight = Fly(world_, [&](const UavEnvironment&) {
       Action action = result.actions[next++];
       action.schedule =
           action.schedule == 0 ? 0 : problem_.sensors()[static_cast<size_t>(action.schedule) - 1] + 1;
       return action;
     });
     cost_ = result.cost;
-    FRESCO_CHECK(plan_.flight.arrived() && CostOf(plan_.flight) == cost_);
+    FRESCO_CHECK(Arrived(plan_.flight) && CostOf(plan_.flight) == cost_);
   }
 }
 
@@ -130,8 +130,13 @@ Plan Planner::Run() {
 
 }  // namespace
 
+bool CanPlan(const World& world) {
+  return AsUavWorld(world) != nullptr;
+}
+
 Plan PlanOptimally(const World& world, const PlannerOptions& options) {
-  return Planner(world, options).Run();
+  FRESCO_CHECK(CanPlan(world));
+  return Planner(*AsUavWorld(world), options).Run();
 }
 
 }  // namespace fresco

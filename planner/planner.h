@@ -58,7 +58,11 @@ struct Plan {
   int64_t labels = 0;  ///< labels kept, over all passes of the search
 };
 
-/// Plans the best flight in `world`, whose constructor has made sure that a flight exists.
+/// Whether the planner knows this kind of world: only the UAV's.
+bool CanPlan(const World& world);
+
+/// Plans the best flight in `world`, whose constructor has made sure that a flight exists. CHECKs that it
+/// can.
 Plan PlanOptimally(const World& world, const PlannerOptions& options = {});
 
 }  // namespace fresco

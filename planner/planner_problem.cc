@@ -38,7 +38,7 @@ double WholeFactor(const std::vector<double>& weights, double limit) {
 
 }  // namespace
 
-PlannerProblem::PlannerProblem(const World& world)
+PlannerProblem::PlannerProblem(const UavWorld& world)
     : world_(&world),
       maximum_aoi_(std::min(world.scenario().maximum_aoi.value_or(slots()), slots())),
       hovering_is_dearer_(world.hovering_energy_j() >= world.flying_energy_j()) {
@@ -81,7 +81,7 @@ void PlannerProblem::ComputeEnergies() {
   const double budget_j = world_->scenario().initial_energy_j - moves * cheap_energy_j_;
   energy_binds_ = budget_j < moves * extra_energy_j_;
   dear_slots_ = moves;
-  while (dear_slots_ * extra_energy_j_ > budget_j) {  // exact, since World rounds its energies
+  while (dear_slots_ * extra_energy_j_ > budget_j) {  // exact, since UavWorld rounds its energies
     --dear_slots_;
   }
 }

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "worlds/uav/world.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 
@@ -19,9 +19,9 @@ inline constexpr std::array kAllMoves = {Move::kNorth, Move::kSouth, Move::kEast
 class PlannerProblem {
  public:
   /// `world` must outlive the problem.
-  explicit PlannerProblem(const World& world);
+  explicit PlannerProblem(const UavWorld& world);
 
-  const World& world() const { return *world_; }
+  const UavWorld& world() const { return *world_; }
   int slots() const { return world_->scenario().slots; }
   int cells() const { return world_->scenario().columns * world_->scenario().rows; }
   int start() const { return world_->CellIndex(world_->scenario().start); }
@@ -74,7 +74,7 @@ class PlannerProblem {
   void ComputeEnergies();
   void TabulateMoves();
 
-  const World* world_;
+  const UavWorld* world_;
   std::vector<int32_t> after_;  // by cell and move
   std::vector<int> sensors_;
   std::vector<int64_t> weights_;

@@ -4,6 +4,8 @@
 #include <csignal>
 #include <utility>
 
+#include "core/error.h"
+
 namespace fresco {
 
 bool RestartPolicy::EndedByOthers(int exit_status) {
@@ -11,7 +13,8 @@ bool RestartPolicy::EndedByOthers(int exit_status) {
 }
 
 int64_t RestartPolicy::NoteDeath(int exit_status, int64_t lived_us) {
-  if (lived_us >= kEarlyUs) {
+  const bool in_plugin = exit_status == static_cast<int>(ErrorKind::kPlugin);
+  if (lived_us >= (in_plugin ? kEarlyInPluginUs : kEarlyUs)) {
     *this = RestartPolicy();
     return 0;
   }

@@ -1,7 +1,7 @@
 // Decides when to start a process again after it has ended: at once if it had run for a while, and after a
-// growing pause if it ended right after its start. If it ends right after its start again and again, it is
-// hopeless. Uses no clock; times are arguments. TrainingRun owns one for each actor. Only one thread may use
-// an object.
+// growing pause if it ended early: right after its start, or in code that is not Fresco's. If it ends early
+// again and again, it is hopeless. Uses no clock; times are arguments. TrainingRun owns one for each actor.
+// Only one thread may use an object.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,13 @@ namespace fresco {
 
 class RestartPolicy {
  public:
-  /// A process that ran for less than this ended right after its start.
+  /// A process that ran for less than this ended early; so did one that ended with the status of
+  /// ErrorKind::kPlugin before kEarlyInPluginUs.
   static constexpr int64_t kEarlyUs = 2'000'000;
+  static constexpr int64_t kEarlyInPluginUs = 60'000'000;
   static constexpr int64_t kFirstPauseUs = 100'000;
   static constexpr int64_t kLongestPauseUs = 5'000'000;
-  /// It is hopeless if so many processes in succession ended by themselves right after their start.
+  /// It is hopeless if so many processes in succession ended by themselves, and early.
   static constexpr int kHopelessAfter = 5;
 
   /// Whether somebody else ended the process, by SIGKILL or SIGTERM. Such an end says nothing about the next
@@ -30,7 +32,7 @@ class RestartPolicy {
 
  private:
   int64_t next_pause_us_ = kFirstPauseUs;
-  int own_ends_ = 0;  // processes in succession that ended by themselves right after their start
+  int own_ends_ = 0;  // processes in succession that ended by themselves, and early
 };
 
 }  // namespace fresco

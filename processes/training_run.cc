@@ -12,6 +12,7 @@
 #include "core/installation.h"
 #include "learner/learner_process.h"
 #include "msgs/channels.h"
+#include "msgs/worlds.h"
 
 namespace fresco {
 namespace {
@@ -63,6 +64,9 @@ std::vector<std::string> ActorCommand(const Experiment& experiment, const BusOpt
                                       experiment.run().channel_prefix()};
   if (run_id) {
     command.insert(command.end(), {"--run-id", IdentifierText(*run_id)});
+  }
+  if (const std::string code = CodeOf(experiment.config()); !code.empty()) {
+    command.insert(command.end(), {"--allow-code", code});
   }
   AddBusArguments(bus_options, command);
   return command;
@@ -242,8 +246,9 @@ void TrainingRun::NoteDeath(LocalActor& actor, const std::filesystem::path& log,
   actor_failures_ += RestartPolicy::EndedByOthers(status) ? 0 : 1;
   const int64_t pause_us = actor.restarts.NoteDeath(status, now_us - actor.process->started_us());
   if (actor.restarts.hopeless()) {
-    throw Failure(fmt::format("an actor ended {} times right after its start; its log {} ends with:{}",
-                              RestartPolicy::kHopelessAfter, log.string(), LastLines(log, 3)));
+    throw Failure(
+        fmt::format("an actor ended {} times right after its start, or in its world; its log {} ends with:{}",
+                    RestartPolicy::kHopelessAfter, log.string(), LastLines(log, 3)));
   }
   actor.start_at_us = now_us + pause_us;
   actor.process.reset();

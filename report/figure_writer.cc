@@ -195,7 +195,8 @@ class FigureWriter {
   }
 
   StudyResult WithoutTraining(Figure figure, double budget_j) const {
-    const World world(WithBudget(base_, figure, budget_j).scenario());
+    const Experiment experiment = WithBudget(base_, figure, budget_j);
+    const UavWorld& world = RequireUavWorld(experiment.world(), "the figures");
     const auto result_of = [&](const Episode& flight) {
       const AoiFigures figures = Figures(world, flight);
       return PolicyResult{figures.average_aoi, figures.total_aoi};
@@ -211,11 +212,12 @@ class FigureWriter {
   }
 
   void WriteField(const FinishedRun& field) {
+    const UavWorld& world = RequireUavWorld(field.world(), "the figures");
     const LearningCurve& curve = field.learning_curve();
     std::vector<std::vector<CsvCell>> rows;
     for (const LearningPoint& point : curve.points) {
       rows.push_back(
-          {point.updates, point.average_aoi, int64_t{point.arrived}, CellOrEmpty(curve.optimum_average_aoi)});
+          {point.updates, point.score, int64_t{point.success == 1}, CellOrEmpty(curve.optimum_score)});
     }
     WriteCsv(folder_ / "learning_curve.csv", {"updates", "average_aoi", "arrived", "optimal_average_aoi"},
              rows);
@@ -223,21 +225,21 @@ class FigureWriter {
          "One greedy flight of every evaluated version of one run's network.");
     for (const ReportFlight& flight : field.flights()) {
       const std::string file = FlightFile(flight.name);
-      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), field.world(), flight.flight);
+      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), world, flight.flight);
       const std::string title = "Flight: " + flight.name;
-      Draw(DrawFlightMap(title, field.world(), flight.flight), file, title,
+      Draw(DrawFlightMap(title, world, flight.flight), file, title,
            "The path's colour is the slot; a dot joined with a sensor is a collection.");
     }
   }
 
-  static void WriteFlightCsv(const Path& path, const World& world, const Episode& flight) {
+  static void WriteFlightCsv(const Path& path, const UavWorld& world, const Episode& flight) {
     std::vector<std::string> header = {"slot", "column", "row", "move", "scheduled"};
-    for (size_t sensor = 1; sensor <= flight.states.front().aoi.size(); ++sensor) {
+    for (size_t sensor = 1; sensor <= static_cast<size_t>(world.sensors()); ++sensor) {
       header.push_back(fmt::format("aoi_{}", sensor));
     }
     std::vector<std::vector<CsvCell>> rows;
-    for (size_t slot = 0; slot < flight.states.size(); ++slot) {
-      const State& state = flight.states[slot];
+    for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
+      const UavState state = StateIn(flight, slot);
       const Action action = ActionIn(world, flight, slot);
       std::vector<CsvCell> row = {int64_t{state.slot}, int64_t{state.cell.column}, int64_t{state.cell.row},
                                   MoveName(action.move), int64_t{action.schedule}};
@@ -260,7 +262,7 @@ class FigureWriter {
     policies.title = "One field, flown below";
     contents_.tables.push_back(std::move(policies));
     contents_.flights = field.flights();
-    contents_.world = &field.world();
+    contents_.world = &RequireUavWorld(field.world(), "the figures");
     contents_.configuration = base_.Text();
     WriteFileAtomically(folder_ / "report.html", ReportPage(contents_));
   }

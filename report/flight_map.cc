@@ -21,18 +21,18 @@ struct Point {
 
 /// The shift of the path in a slot, in cells, the same for columns and rows. It grows from -0.3 in slot 1 to
 /// 0.3 in slot T.
-double Shift(const World& world, int slot) {
+double Shift(const UavWorld& world, int slot) {
   constexpr double kLargestShift = 0.3;
   const double last = std::max(world.scenario().slots - 1, 1);
   return kLargestShift * (2 * (slot - 1) / last - 1);
 }
 
-Point Shifted(const World& world, Cell cell, int slot) {
+Point Shifted(const UavWorld& world, Cell cell, int slot) {
   const double shift = Shift(world, slot);
   return {cell.column + shift, cell.row + shift};
 }
 
-Point SensorPoint(const World& world, int sensor) {
+Point SensorPoint(const UavWorld& world, int sensor) {
   const Sensor& position = world.scenario().sensors[static_cast<size_t>(sensor)];
   return {position.x_m / world.scenario().cell_m, position.y_m / world.scenario().cell_m};
 }
@@ -63,9 +63,9 @@ std::string ColourNumber(const char* colour) {
 }
 
 /// The data of the path, a line for each slot: column, row, slot.
-std::string PathData(const World& world, const Episode& flight) {
+std::string PathData(const UavWorld& world, const Episode& flight) {
   std::string script = "$path << END\n";
-  for (const State& state : flight.states) {
+  for (const UavState& state : StatesIn(flight)) {
     const Point point = Shifted(world, state.cell, state.slot);
     script += fmt::format("{} {} {}\n", point.column, point.row, state.slot);
   }
@@ -74,10 +74,10 @@ std::string PathData(const World& world, const Episode& flight) {
 
 /// The data of the collections, a line each: column, row, columns and rows from there to the sensor, its
 /// colour.
-std::string CollectionData(const World& world, const Episode& flight) {
+std::string CollectionData(const UavWorld& world, const Episode& flight) {
   std::string script = "$collections << END\n";
-  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
-    const State& state = flight.states[slot];
+  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
+    const UavState state = StateIn(flight, slot);
     const int sensor = ActionIn(world, flight, slot).schedule - 1;
     if (sensor >= 0 && world.Covers(state.cell, sensor)) {
       const Point from = Shifted(world, state.cell, state.slot);
@@ -91,7 +91,7 @@ std::string CollectionData(const World& world, const Episode& flight) {
 
 /// The data of the sensors, a line each: column, row, radius, number, colour of the disc, colour of the
 /// number.
-std::string SensorData(const World& world) {
+std::string SensorData(const UavWorld& world) {
   const double radius = world.scenario().coverage_radius_m / world.scenario().cell_m;
   std::string script = "$sensors << END\n";
   for (int sensor = 0; sensor < world.sensors(); ++sensor) {
@@ -104,7 +104,7 @@ std::string SensorData(const World& world) {
 }
 
 /// The data of start and stop, shifted as the ends of a path through all slots.
-std::string EndData(const World& world) {
+std::string EndData(const UavWorld& world) {
   const Scenario& scenario = world.scenario();
   const Point start = Shifted(world, scenario.start, 1);
   const Point stop = Shifted(world, scenario.stop, scenario.slots);
@@ -159,7 +159,7 @@ std::string CellScript(int columns, int rows) {
       columns - 0.5, rows - 0.5, colour::kGrid);
 }
 
-std::string AxesScript(const World& world) {
+std::string AxesScript(const UavWorld& world) {
   const int columns = world.scenario().columns;
   const int rows = world.scenario().rows;
   return fmt::format("set border 15 linewidth 1 linecolor rgb '{}'\n", colour::kText) +
@@ -184,8 +184,7 @@ Legend MapLegend() {
 
 }  // namespace
 
-Picture DrawFlightMap(const std::string& title, const World& world, const Episode& flight) {
-  FRESCO_CHECK(!flight.states.empty());
+Picture DrawFlightMap(const std::string& title, const UavWorld& world, const Episode& flight) {
   const Legend legend = MapLegend();
   const Frame frame{
       .title = title, .x_label = "column", .y_label = "row", .right_label = "slot", .right_px = kColourBarPx};

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "report/picture.h"
-#include "worlds/uav/episode.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 
@@ -13,6 +13,6 @@ namespace fresco {
 /// their numbers and coverage; the path, coloured by slot; and a dot wherever the UAV collected, joined with
 /// that sensor. In each slot the path is shifted by a small part of a cell, so that several passes over the
 /// same cells are visible. `flight` has at least one slot and was flown in `world`.
-Picture DrawFlightMap(const std::string& title, const World& world, const Episode& flight);
+Picture DrawFlightMap(const std::string& title, const UavWorld& world, const Episode& flight);
 
 }  // namespace fresco

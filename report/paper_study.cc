@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "worlds/uav/world.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -94,8 +94,9 @@ Experiment WithBudget(const Experiment& base, Figure figure, double budget_j) {
 
 double BudgetOfShare(const Experiment& base, Figure figure, double share) {
   constexpr double kPlentyJ = 1e9;
-  const World world(WithBudget(base, figure, kPlentyJ).scenario());
-  const int moves = world.maximum_transitions();
+  const Experiment experiment = WithBudget(base, figure, kPlentyJ);
+  const UavWorld& world = RequireUavWorld(experiment.world(), "the figures");
+  const int moves = world.longest_episode();
   const double least_j = CompletionEnergy(world, world.scenario().start, moves);
   const double most_j = moves * std::max(world.flying_energy_j(), world.hovering_energy_j());
   return std::ceil(least_j + share * (most_j - least_j));

@@ -78,7 +78,7 @@ OrderedJson CellJson(Cell cell) {
   return {{"column", cell.column}, {"row", cell.row}};
 }
 
-OrderedJson WorldJson(const World& world) {
+OrderedJson WorldJson(const UavWorld& world) {
   const Scenario& scenario = world.scenario();
   OrderedJson sensors = OrderedJson::array();
   for (const Sensor& sensor : scenario.sensors) {
@@ -96,17 +96,17 @@ OrderedJson WorldJson(const World& world) {
 
 /// Returns what `fresco evaluate --format json` prints, and adds for each slot whether the scheduled sensor
 /// is collected, that is, covered.
-OrderedJson FlightDataJson(const World& world, const Episode& flight) {
+OrderedJson FlightDataJson(const UavWorld& world, const Episode& flight) {
   OrderedJson json = OrderedJson::parse(FlightJson(world, flight, ""));
-  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
-    const Cell cell = flight.states[slot].cell;
+  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
+    const Cell cell = CellIn(flight.state(slot));
     const int scheduled = ActionIn(world, flight, slot).schedule;
     json["flight"][slot]["collected"] = scheduled > 0 && world.Covers(cell, scheduled - 1);
   }
   return json;
 }
 
-std::string FlightsHtml(const World& world, const std::vector<ReportFlight>& flights) {
+std::string FlightsHtml(const UavWorld& world, const std::vector<ReportFlight>& flights) {
   OrderedJson array = OrderedJson::array();
   for (const ReportFlight& flight : flights) {
     array.push_back(FlightDataJson(world, flight.flight));
@@ -173,6 +173,7 @@ std::string ReportPage(const ReportContents& contents) {
        {"links", sections.size() > 1 ? LinksHtml(sections) : ""},
        {"sections", SectionsHtml(sections)},
        {"version", kSoftwareVersion},
+       {"footnote", contents.world != nullptr ? " AoI is age of information, in slots." : ""},
        {"script", std::string(kScript)}});
 }
 

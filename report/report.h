@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "worlds/uav/episode.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 
@@ -37,7 +37,7 @@ struct ReportContents {
   std::vector<ReportTable> tables;
   std::vector<ReportFigure> figures;
   std::vector<ReportFlight> flights;  ///< all flown in `world`; the page shows the first one first
-  const World* world = nullptr;       ///< must be set if there are flights
+  const UavWorld* world = nullptr;    ///< must be set if there are flights
   std::string configuration;          ///< in text format
 };
 

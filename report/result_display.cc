@@ -17,123 +17,197 @@ using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 using TableRow = std::vector<std::string>;
 
-std::string GreedyAoi(const learner_status_t& status) {
-  if (std::isnan(status.average_aoi)) {
+std::string GreedyScore(const learner_status_t& status, const WorldDescription& world) {
+  if (std::isnan(status.score)) {
     return "-";
   }
-  std::string text = fmt::format("{:.3f}{}", status.average_aoi, status.arrived != 0 ? "" : " (not arrived)");
-  if (std::isnan(status.best_average_aoi) || std::isnan(status.lower_bound_average_aoi)) {
+  std::string text = fmt::format("{:.3f}", status.score);
+  if (status.success == 0) {
+    text += fmt::format(" (not {})", Title(world.success));
+  } else if (status.success < 1) {
+    text += fmt::format(" ({} {})", PercentText(status.success), Title(world.success));
+  }
+  if (std::isnan(status.best_score)) {
     return text;
   }
-  text += fmt::format(", best {:.3f} ", status.best_average_aoi);
+  if (std::isnan(status.score_bound)) {
+    return world.random ? text + fmt::format(", best {:.3f}", status.best_score) : text;
+  }
+  text += fmt::format(", best {:.3f} ", status.best_score);
   return text + (status.optimum_proved != 0
                      ? fmt::format("({:.2f} % over the optimum)", status.gap_percent)
-                     : fmt::format("(optimum not proved, at least {:.3f})", status.lower_bound_average_aoi));
+                     : fmt::format("(optimum not proved, at least {:.3f})", status.score_bound));
 }
 
 constexpr char kNotProved[] = "not proved";
 
 bool SearchedFor(const Json& summary) {
-  return summary.at("optimum_search") != SearchEndName(SearchEnd::kOff);
+  return summary.value("optimum_search", SearchEndName(SearchEnd::kOff)) != SearchEndName(SearchEnd::kOff);
 }
 
-TableRow FiguresRow(const std::string& name, const Json& figures, const Json& summary) {
-  const Json average = figures.value("average_aoi", Json());
-  if (average.is_null()) {
-    return {name, "-", "-", "-", "not evaluated"};
+std::string FigureText(const Json& value) {
+  return value.is_number_integer() ? std::to_string(value.get<int64_t>())
+                                   : fmt::format("{:.3f}", value.get<double>());
+}
+
+/// The figures that tables show.
+std::vector<std::string> FigureNames(const Json& summary) {
+  constexpr size_t kShown = 2;
+  std::vector<std::string> names;
+  for (const Json& figure : summary.at("world").at("figures")) {
+    if (names.size() < kShown) {
+      names.push_back(figure.at("name").get<std::string>());
+    }
   }
-  const bool arrived = figures.at("arrived").get<bool>();
-  const Json& optimal = summary.at("optimal_average_aoi");
-  std::string gap = arrived && SearchedFor(summary) ? kNotProved : "-";
-  if (arrived && !optimal.is_null()) {
-    gap = fmt::format("{:.2f} %", GapPercent(average.get<double>(), optimal.get<double>()));
+  return names;
+}
+
+/// `figures` has them under their names with a prefix, and the success; null: not evaluated.
+TableRow FiguresRow(const std::string& title, const Json& figures, const Json& summary,
+                    const std::string& prefix = "") {
+  const std::vector<std::string> names = FigureNames(summary);
+  const bool has_gap = summary.contains("gap_percent");
+  TableRow row = {title};
+  if (figures.value(prefix + names.front(), Json()).is_null()) {
+    row.resize(1 + names.size() + (has_gap ? 1 : 0), "-");
+    row.push_back("not evaluated");
+    return row;
   }
-  return {name, fmt::format("{:.3f}", average.get<double>()),
-          std::to_string(figures.at("total_aoi").get<int64_t>()), gap, arrived ? "yes" : "NO"};
+  for (const std::string& name : names) {
+    const Json& figure = figures.at(prefix + name);
+    row.push_back(&name == &names.front() ? fmt::format("{:.3f}", figure.get<double>()) : FigureText(figure));
+  }
+  const std::string success = summary.at("world").at("success");
+  const bool succeeded = figures.value(prefix.empty() ? success : "", true);
+  if (has_gap) {
+    const Json& optimal = summary.at("optimal_" + names.front());
+    std::string gap = succeeded && SearchedFor(summary) ? kNotProved : "-";
+    if (succeeded && !optimal.is_null()) {
+      gap = fmt::format("{:.2f} %",
+                        GapPercent(figures.at(prefix + names.front()).get<double>(), optimal.get<double>()));
+    }
+    row.push_back(gap);
+  }
+  const double share = figures.value(prefix.empty() ? "success" : "", succeeded ? 1.0 : 0.0);
+  row.push_back(succeeded ? "yes" : (share > 0 ? PercentText(share) : "NO"));
+  return row;
 }
 
 }  // namespace
 
-std::string ProgressLine(const learner_status_t& status) {
+std::string Title(const std::string& name) {
+  std::string title = name;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  if (title.ends_with("aoi")) {  // an acronym
+    title.replace(title.size() - 3, 3, "AoI");
+  }
+  return title;
+}
+
+std::string PercentText(double share) {
+  constexpr int kMostDigits = 6;
+  std::string text;
+  for (int digits = 0; digits <= kMostDigits; ++digits) {
+    text = fmt::format("{:.{}f}", 100 * share, digits);
+    const double shown = std::stod(text) / 100;
+    if ((shown == 0) == (share == 0) && (shown == 1) == (share == 1)) {
+      break;
+    }
+  }
+  return text + " %";
+}
+
+std::string ProgressLine(const learner_status_t& status, const WorldDescription& world) {
+  const std::string score = "greedy " + Title(world.figures.front().name) + " " + GreedyScore(status, world);
   const std::string warning = status.warning.empty() ? "" : "WARNING: " + status.warning + " | ";
   if (status.episodes == status.total_episodes && !status.waiting_for.empty()) {
-    return warning + fmt::format("trained, waits for {} | {} episodes | {} updates | greedy AoI {}",
-                                 status.waiting_for, status.episodes, status.updates, GreedyAoi(status));
+    return warning + fmt::format("trained, waits for {} | {} episodes | {} updates | {}", status.waiting_for,
+                                 status.episodes, status.updates, score);
   }
   const double percent = 100.0 * static_cast<double>(status.episodes) /
                          static_cast<double>(std::max<int64_t>(1, status.total_episodes));
   return warning + fmt::format(
-                       "{:3.0f}% | {} of {} episodes | {} updates | epsilon {:.3f} | greedy AoI {} | {:.0f} "
+                       "{:3.0f}% | {} of {} episodes | {} updates | epsilon {:.3f} | {} | {:.0f} "
                        "transitions/s | "
                        "{:.0f} updates/s | {} actors{}",
-                       percent, status.episodes, status.total_episodes, status.updates, status.epsilon,
-                       GreedyAoi(status), status.transitions_per_s, status.updates_per_s, status.actors,
+                       percent, status.episodes, status.total_episodes, status.updates, status.epsilon, score,
+                       status.transitions_per_s, status.updates_per_s, status.actors,
                        status.waiting_for.empty() ? " | actors wait for the learner"
                                                   : " | learner waits for " + status.waiting_for);
 }
 
 std::vector<TableRow> PolicyRows(const std::string& summary_json) {
   const Json summary = Json::parse(summary_json);
-  const bool proved = !summary.at("optimal_average_aoi").is_null();
-  const Json& found = summary.at("best_found_average_aoi");
-  std::vector<TableRow> rows = {
-      {"policy", "average AoI", "total AoI", "gap", "arrived"},
-      FiguresRow("this run (DQN)", summary, summary),
-      FiguresRow("AoI-based", summary.at("baselines").at("aoi"), summary),
-      FiguresRow("distance-based", summary.at("baselines").at("distance"), summary)};
-  if (!found.is_null()) {
-    rows.push_back({FoundFlightName(proved), fmt::format("{:.3f}", found.get<double>()),
-                    std::to_string(summary.at("best_found_total_aoi").get<int64_t>()),
-                    proved ? "0.00 %" : kNotProved, "yes"});
+  const std::vector<std::string> names = FigureNames(summary);
+  TableRow header = {"policy"};
+  std::transform(names.begin(), names.end(), std::back_inserter(header), Title);
+  if (summary.contains("gap_percent")) {
+    header.push_back("gap");
+  }
+  header.push_back(Title(summary.at("world").at("success")));
+  std::vector<TableRow> rows = {header, FiguresRow("this run (DQN)", summary, summary)};
+  for (const Json& baseline : summary.value("baselines", Json::object())) {
+    rows.push_back(FiguresRow(baseline.at("title"), baseline, summary));
+  }
+  if (SearchedFor(summary) && !summary.at("best_found_" + names.front()).is_null()) {
+    const bool proved = !summary.at("optimal_" + names.front()).is_null();
+    rows.push_back(FiguresRow(FoundFlightName(proved), summary, summary, "best_found_"));
   }
   return rows;
 }
 
 std::string OptimumNote(const std::string& summary_json) {
   const Json summary = Json::parse(summary_json);
-  const Json& bound = summary.at("lower_bound_average_aoi");
-  const std::string end = summary.at("optimum_search");
+  const std::string end = summary.value("optimum_search", SearchEndName(SearchEnd::kOff));
   if (end == SearchEndName(SearchEnd::kFailed)) {
     return "The search for the exact optimum failed; the log says why.";
   }
   if (end == SearchEndName(SearchEnd::kOff) || end == SearchEndName(SearchEnd::kProved)) {
     return "";
   }
+  const std::string name = FigureNames(summary).front();
+  const double bound = summary.at("lower_bound_" + name);
   std::string note = fmt::format(
-      "The exact optimum is not proved: the search {}. No flight has an average AoI below {:.3f}",
+      "The exact optimum is not proved: the search {}. No flight has an {} below {:.3f}",
       end == SearchEndName(SearchEnd::kStopped) ? "was stopped"
                                                 : "reached run.optimum_limit_s or run.optimum_memory_mb",
-      bound.get<double>());
-  if (summary.value("arrived", Json()) == true) {
+      Title(name), bound);
+  if (summary.value("success", Json()) == 1) {
     note +=
         fmt::format("; this run lies above the optimum by at most {:.2f} %, which is a bound and not the gap",
-                    GapPercent(summary.at("average_aoi").get<double>(), bound.get<double>()));
+                    GapPercent(summary.at("score").get<double>(), bound));
   }
   return note + ".";
 }
 
 std::string ResultTable(const std::string& summary_json) {
   const std::vector<TableRow> rows = PolicyRows(summary_json);
-  size_t name_width = 16;
+  std::vector<size_t> widths = {16};
+  widths.resize(rows.front().size(), 10);
   for (const TableRow& row : rows) {
-    name_width = std::max(name_width, row[0].size());
+    for (size_t i = 0; i < row.size(); ++i) {
+      widths[i] = std::max(widths[i], row[i].size());
+    }
   }
   std::string table;
   for (const TableRow& row : rows) {
-    table += fmt::format("  {:<{}} {:>12} {:>10} {:>12}  {}\n", row[0], name_width, row[1], row[2], row[3],
-                         row[4]);
+    std::string line = fmt::format("  {:<{}}", row.front(), widths.front());
+    for (size_t i = 1; i + 1 < row.size(); ++i) {
+      line += fmt::format("  {:>{}}", row[i], widths[i]);
+    }
+    table += line + "  " + row.back() + "\n";
   }
   const std::string note = OptimumNote(summary_json);
   return note.empty() ? table : table + note + "\n";
 }
 
-std::string FlightJson(const World& world, const Episode& flight, const std::string& policy,
+std::string FlightJson(const UavWorld& world, const Episode& flight, const std::string& policy,
                        const std::optional<Plan>& plan) {
   const AoiFigures figures = Figures(world, flight);
   OrderedJson json = {{"policy", policy},
-                      {"arrived", flight.arrived()},
-                      {"outcome", OutcomeName(flight.outcome)},
-                      {"slots", flight.states.size()},
+                      {"arrived", Arrived(flight)},
+                      {"outcome", OutcomeName(OutcomeOf(flight))},
+                      {"slots", flight.transitions() + 1},
                       {"total_aoi", figures.total_aoi},
                       {"average_aoi", figures.average_aoi},
                       {"sum_aoi", figures.sum_aoi},
@@ -144,8 +218,8 @@ std::string FlightJson(const World& world, const Episode& flight, const std::str
     json["lower_bound_average_aoi"] = plan->lower_bound_average_aoi;
   }
   OrderedJson& slots = json["flight"] = OrderedJson::array();
-  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
-    const State& state = flight.states[slot];
+  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
+    const UavState state = StateIn(flight, slot);
     const Action action = ActionIn(world, flight, slot);
     slots.push_back({{"slot", state.slot},
                      {"column", state.cell.column},

@@ -11,15 +11,16 @@
 
 namespace fresco {
 
-/// Returns a line of progress: episodes, updates, epsilon, greedy average AoI (and its gap if the optimum is
-/// proved), rates, and who waits for whom. The learner's warning comes first, if there is one, so that a
-/// narrow terminal does not cut it off. After the last episode the line begins with what the learner waits
-/// for.
-std::string ProgressLine(const learner_status_t& status);
+/// Returns a line of progress: episodes, updates, epsilon, the score of greedy episodes (and its gap if the
+/// optimum is proved), rates, and who waits for whom. `world` is that of the run. The learner's warning comes
+/// first, if there is one, so that a narrow terminal does not cut it off. After the last episode the line
+/// begins with what the learner waits for.
+std::string ProgressLine(const learner_status_t& status, const WorldDescription& world);
 
 /// Returns a heading and a row for this run, each baseline and the exact optimum, from a summary's JSON. The
-/// columns are policy, average AoI, total AoI, gap, arrived. If the optimum is not proved, the last row is
-/// the best flight that the search found, and no row has a gap.
+/// columns are the policy, the first two figures of the world, the gap and the success; what a world does not
+/// have (baselines, an optimum and a gap) is left out. If the optimum is not proved, the last row is the best
+/// flight that the search found, and no row has a gap.
 std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json);
 
 /// If there was a search and the optimum is not proved, returns a note: why not, what is proved instead, and
@@ -29,11 +30,18 @@ std::string OptimumNote(const std::string& summary_json);
 /// Returns the final table of a run, followed by the note, from a summary's JSON.
 std::string ResultTable(const std::string& summary_json);
 
+/// Returns a name for people: "average AoI" for "average_aoi".
+std::string Title(const std::string& name);
+
+/// Returns a share, 0 to 1, in whole percent: "37 %". It has more digits where "0 %" or "100 %" would be
+/// untrue.
+std::string PercentText(double share);
+
 /// Returns an object with policy, arrived, outcome, slots, total_aoi, average_aoi, sum_aoi, residual_energy_j
 /// and flight. The latter is a list of {slot, column, row, move, scheduled, aoi}, one for each slot, with the
 /// AoI at its beginning. If there is a plan, the object also has optimal, lower_bound_total_aoi and
 /// lower_bound_average_aoi.
-std::string FlightJson(const World& world, const Episode& flight, const std::string& policy,
+std::string FlightJson(const UavWorld& world, const Episode& flight, const std::string& policy,
                        const std::optional<Plan>& plan = std::nullopt);
 
 }  // namespace fresco

@@ -13,7 +13,8 @@
 #include "report/result_display.h"
 #include "storage/network_file.h"
 #include "storage/policy.h"
-#include "worlds/uav/baselines.h"
+#include "training/flyer.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -41,10 +42,14 @@ size_t ColumnOf(const std::vector<std::string>& header, const std::string& name,
 /// The best flight that the search found, from its actions in optimum.json.
 Episode FlightOfOptimum(const World& world, const Json& optimum, const Path& file) {
   Episode flight;
-  if (!FlyActions(world, {}, optimum.at("actions").get<std::vector<int16_t>>(), flight)) {
+  if (!FlyActions(world, 0, optimum.at("actions").get<std::vector<int16_t>>(), flight)) {
     throw Failure(file.string() + ": its actions are no flight of this run's scenario");
   }
   return flight;
+}
+
+std::string Label(const Quantity& quantity) {
+  return Title(quantity.name) + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]");
 }
 
 }  // namespace
@@ -53,62 +58,77 @@ LinePlot LearningCurvePlot(const LearningCurve& curve) {
   FRESCO_CHECK(!curve.points.empty());
   constexpr int64_t kManyUpdates = 10'000;
   const bool thousands = curve.points.back().updates >= kManyUpdates;
-  Curve flights{.name = "greedy flight", .role = CurveRole::kDqn, .shape = CurveShape::kFaintDots};
+  const bool less_is_better = curve.world.less_is_better;
+  Curve flights{.name = curve.world.random ? "mean of greedy episodes" : "greedy episode",
+                .role = CurveRole::kDqn,
+                .shape = CurveShape::kFaintDots};
   Curve best{.name = "best so far", .role = CurveRole::kDqn, .shape = CurveShape::kSteps};
-  Curve failures{.name = "did not arrive", .role = CurveRole::kAoiBased, .shape = CurveShape::kTopMarks};
+  Curve failures{.name = "not " + Title(curve.world.success),
+                 .role = CurveRole::kAoiBased,
+                 .shape = CurveShape::kTopMarks};
   for (const LearningPoint& point : curve.points) {
     const double x = static_cast<double>(point.updates) / (thousands ? 1000 : 1);
     flights.x.push_back(x);
-    flights.y.push_back(point.arrived ? point.average_aoi : std::nan(""));
-    if (!point.arrived) {
+    const bool shown = point.success > 0 || curve.world.random;
+    flights.y.push_back(shown ? point.score : std::nan(""));
+    if (!shown) {
       failures.x.push_back(x);
     }
     const bool last = &point == &curve.points.back();
-    const bool better = point.arrived && (best.y.empty() || point.average_aoi < best.y.back());
+    const bool better =
+        shown &&
+        (best.y.empty() || (less_is_better ? point.score < best.y.back() : point.score > best.y.back()));
     if (better || (last && !best.y.empty())) {
       best.x.push_back(x);
-      best.y.push_back(better ? point.average_aoi : best.y.back());
+      best.y.push_back(better ? point.score : best.y.back());
     }
   }
   LinePlot plot{.title = curve.title,
                 .x_label = thousands ? "updates (thousands)" : "updates",
-                .y_label = "average AoI [slots]"};
+                .y_label = Label(curve.world.figures.front())};
   plot.curves = {flights, failures, best};
-  if (curve.optimum_average_aoi) {
-    plot.references = {{"exact optimum", CurveRole::kOptimum, *curve.optimum_average_aoi}};
-    plot.gap_base = curve.optimum_average_aoi;
+  if (curve.optimum_score) {
+    plot.references = {{"exact optimum", CurveRole::kOptimum, *curve.optimum_score}};
+    plot.gap_base = curve.optimum_score;
   }
   return plot;
 }
 
 FinishedRun::FinishedRun(const Path& folder)
     : experiment_(Experiment::Load((folder / "config.textproto").string())),
-      world_(experiment_.scenario()),
       summary_(ReadFile(folder / "summary.json")) {
   AddFlights(folder);
   ReadLearningCurve(folder);
 }
 
 void FinishedRun::AddFlights(const Path& folder) {
+  if (AsUavWorld(world()) == nullptr) {
+    return;
+  }
   if (std::filesystem::exists(folder / "best.network")) {
     const StoredNetwork network = ReadNetworkFile(folder / "best.network");
-    flights_.push_back({"this run (DQN)", FlyNetwork(world_, experiment_, network)});
+    flights_.push_back(
+        {"this run (DQN)", FlyGreedily(experiment_, 0, std::make_shared<const Vector>(network.parameters))});
   }
   if (std::filesystem::exists(folder / "optimum.json")) {
     const Path file = folder / "optimum.json";
     const Json optimum = Json::parse(ReadFile(file));
     flights_.push_back(
-        {FoundFlightName(optimum.at("optimal").get<bool>()), FlightOfOptimum(world_, optimum, file)});
+        {FoundFlightName(optimum.at("optimal").get<bool>()), FlightOfOptimum(world(), optimum, file)});
   }
-  flights_.push_back({"AoI-based", FlyBaseline(world_, BaselineKind::kAoi)});
-  flights_.push_back({"distance-based", FlyBaseline(world_, BaselineKind::kDistance)});
+  for (const ReferencePolicy& policy : world().reference_policies()) {
+    flights_.push_back({policy.title, world().FlyReference(policy.name)});
+  }
 }
 
 void FinishedRun::ReadLearningCurve(const Path& folder) {
-  learning_curve_.title = "Greedy flights during training";
-  const Json optimal = Json::parse(summary_).at("optimal_average_aoi");
+  const WorldDescription& description = world().description();
+  const std::string& score_name = description.figures.front().name;
+  learning_curve_.title = "Greedy episodes during the training";
+  learning_curve_.world = description;
+  const Json optimal = Json::parse(summary_).value("optimal_" + score_name, Json());
   if (!optimal.is_null()) {
-    learning_curve_.optimum_average_aoi = optimal.get<double>();
+    learning_curve_.optimum_score = optimal.get<double>();
   }
   const Path file = folder / "metrics.csv";
   if (!std::filesystem::exists(file)) {
@@ -119,12 +139,12 @@ void FinishedRun::ReadLearningCurve(const Path& folder) {
   std::getline(stream, line);
   const std::vector<std::string> header = Split(line);
   const size_t updates = ColumnOf(header, "updates", file);
-  const size_t average_aoi = ColumnOf(header, "average_aoi", file);
-  const size_t arrived = ColumnOf(header, "arrived", file);
+  const size_t score = ColumnOf(header, score_name, file);
+  const size_t success = ColumnOf(header, description.success, file);
   while (std::getline(stream, line)) {
     const std::vector<std::string> cells = Split(line);
     learning_curve_.points.push_back(
-        {std::stoll(cells.at(updates)), std::stod(cells.at(average_aoi)), cells.at(arrived) == "1"});
+        {std::stoll(cells.at(updates)), std::stod(cells.at(score)), std::stod(cells.at(success))});
   }
 }
 
@@ -145,7 +165,7 @@ void WriteRunReport(const Path& folder) {
   const FinishedRun run(folder);
   const Json summary = Json::parse(run.summary());
   ReportContents contents;
-  const bool proved = !summary.at("optimal_average_aoi").is_null();
+  const bool proved = run.learning_curve().optimum_score.has_value();
   contents.title = "Fresco: a trained policy" + std::string(proved ? " beside the exact optimum" : "");
   contents.summary = fmt::format(
       "{} training episodes, {} updates in {:.0f} s; seed {}, configuration {}, weights {}.{}",
@@ -161,13 +181,13 @@ void WriteRunReport(const Path& folder) {
     try {
       contents.figures.push_back(WriteFigure(DrawLinePlot(LearningCurvePlot(run.learning_curve())),
                                              folder / "learning_curve", "Learning curve",
-                                             "One greedy flight of every evaluated version of the network."));
+                                             "The evaluations of the network's versions."));
     } catch (const Error& error) {
       spdlog::warn("report.html has no learning curve: {}", error.what());
     }
   }
   contents.flights = run.flights();
-  contents.world = &run.world();
+  contents.world = AsUavWorld(run.world());
   contents.configuration = run.experiment().Text();
   WriteFileAtomically(folder / "report.html", ReportPage(contents));
 }

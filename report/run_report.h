@@ -1,5 +1,5 @@
-// Reads the folder of a run that has ended and writes its report: the learning curve, and the run's flight
-// beside those of the baselines and the optimum. Only one thread at a time may use a folder.
+// Reads the folder of a run that has ended and writes its report: the learning curve and, in the UAV's world,
+// the run's flight beside those of the baselines and the optimum. Only one thread at a time may use a folder.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,26 @@
 
 namespace fresco {
 
-/// The result of the greedy flight of one version.
+/// The result of the evaluation of one version.
 struct LearningPoint {
-  int64_t updates = 0;     ///< updates made when the version was made
-  double average_aoi = 0;  ///< in slots
-  bool arrived = false;
+  int64_t updates = 0;  ///< updates made when the version was made
+  double score = 0;     ///< in the unit of the world's first figure
+  double success = 0;   ///< share of its episodes that succeeded
 };
 
 struct LearningCurve {
   std::string title;
-  std::vector<LearningPoint> points{};          ///< at least one, sorted by updates
-  std::optional<double> optimum_average_aoi{};  ///< of the same scenario, in slots, > 0; none if not proved
+  WorldDescription world{};
+  std::vector<LearningPoint> points{};    ///< at least one, sorted by updates
+  std::optional<double> optimum_score{};  ///< of the same world, > 0; none if not proved
 };
 
-/// The plot shows flights that arrived as dots, the best of them so far as a line, flights that did not
-/// arrive as marks at the top, and the optimum as a horizontal line, with the gap to it on the right axis.
+/// The plot shows evaluations as dots, the best of them so far as a line, and the optimum as a horizontal
+/// line, with the gap to it on the right axis. In a world without chance, an evaluation that did not succeed
+/// is a mark at the top.
 LinePlot LearningCurvePlot(const LearningCurve& curve);
 
-/// A run that was read from its folder. It can't be moved, since its flights refer to its world.
+/// A run that was read from its folder.
 class FinishedRun {
  public:
   /// Throws UsageError if the folder does not hold a run that has ended.
@@ -40,11 +42,11 @@ class FinishedRun {
   FinishedRun& operator=(const FinishedRun&) = delete;
 
   const Experiment& experiment() const { return experiment_; }
-  const World& world() const { return world_; }
+  const World& world() const { return experiment_.world(); }
   /// The text of summary.json.
   const std::string& summary() const { return summary_; }
-  /// The flights of the run's best evaluated policy (if there is one), of the optimum or the best flight that
-  /// the search found (if there was a search), and of both baselines.
+  /// In the UAV's world, the flights of the run's best evaluated policy (if there is one), of the optimum or
+  /// the best flight that the search found (if there was a search), and of both baselines.
   const std::vector<ReportFlight>& flights() const { return flights_; }
   /// Has no points if nothing was evaluated.
   const LearningCurve& learning_curve() const { return learning_curve_; }
@@ -54,7 +56,6 @@ class FinishedRun {
   void ReadLearningCurve(const std::filesystem::path& folder);
 
   Experiment experiment_;
-  World world_;
   std::string summary_;
   std::vector<ReportFlight> flights_;
   LearningCurve learning_curve_;

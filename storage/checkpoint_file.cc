@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -9,12 +11,13 @@
 #include "core/error.h"
 #include "core/installation.h"
 #include "msgs/proto/checkpoint.pb.h"
+#include "training/replay_memory.h"
 
 namespace fresco {
 namespace {
 
 constexpr char kCheckpointFamily[] = "fresco-checkpoint-";
-constexpr char kCheckpointFormat[] = "fresco-checkpoint-2";
+constexpr char kCheckpointFormat[] = "fresco-checkpoint-3";
 
 /// Returns the checkpoint in the file after checking its format and CRC.
 proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {
@@ -45,18 +48,62 @@ void ToProto(const Evaluation& from, proto::CheckpointEvaluation& to) {
   to.set_version(from.version);
   to.set_updates(from.updates);
   to.set_episodes(from.episodes);
-  to.set_arrived(from.arrived);
-  to.set_total_aoi(from.figures.total_aoi);
-  to.set_average_aoi(from.figures.average_aoi);
-  to.set_sum_aoi(from.figures.sum_aoi);
+  to.set_success(from.success);
+  to.mutable_figures()->Add(from.figures.begin(), from.figures.end());
 }
 
 Evaluation FromProto(const proto::CheckpointEvaluation& from) {
   return {from.version(),
           from.updates(),
           from.episodes(),
-          from.arrived(),
-          {from.total_aoi(), from.average_aoi(), from.sum_aoi()}};
+          from.success(),
+          {from.figures().begin(), from.figures().end()}};
+}
+
+template <class Value>
+std::string BytesOf(const std::vector<Value>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+template <class Value>
+std::vector<Value> ValuesOf(const std::string& bytes, const std::string& origin) {
+  Expect(bytes.size() % sizeof(Value) == 0, origin, fmt::format("replay: found {} bytes", bytes.size()));
+  std::vector<Value> values(bytes.size() / sizeof(Value));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+void ToProto(const Episode& from, bool repeatable, proto::CheckpointEpisode& to) {
+  to.set_seed(from.seed);
+  to.set_ending(static_cast<int>(from.ending));
+  to.set_actions(BytesOf(from.actions));
+  if (!repeatable) {
+    to.set_states(BytesOf(from.states));
+    to.set_rewards(BytesOf(from.rewards));
+    to.set_next_masks(BytesOf(from.next_masks));
+  }
+}
+
+std::shared_ptr<const Episode> FromProto(const proto::CheckpointEpisode& from, const World& world,
+                                         const std::string& origin) {
+  auto episode = std::make_shared<Episode>();
+  const auto actions = ValuesOf<int16_t>(from.actions(), origin);
+  if (world.description().repeatable) {
+    const bool possible =
+        FlyActions(world, from.seed(), actions, *episode) && episode->actions.size() == actions.size();
+    Expect(possible, origin, "replay: found actions that are no complete episode of this world");
+  } else {
+    Expect(from.ending() == static_cast<int>(Ending::kTerminal) ||
+               from.ending() == static_cast<int>(Ending::kTruncated),
+           origin, fmt::format("replay: found an episode with the ending {}", from.ending()));
+    *episode = {
+        from.seed(), static_cast<Ending>(from.ending()),      ValuesOf<float>(from.states(), origin),
+        actions,     ValuesOf<float>(from.rewards(), origin), ValuesOf<uint8_t>(from.next_masks(), origin)};
+  }
+  Expect(std::all_of(episode->states.begin(), episode->states.end(),
+                     [](float value) { return std::isfinite(value); }),
+         origin, "replay: found a state that is not finite");
+  return episode;
 }
 
 void ToProto(const TrainerProgress& from, proto::CheckpointProgress& to) {
@@ -71,15 +118,16 @@ void ToProto(const TrainerProgress& from, proto::CheckpointProgress& to) {
   to.set_learning_rate(from.learning_rate);
   to.set_loss(from.loss);
   to.set_staleness_updates(from.staleness_updates);
+  to.set_delivering(from.delivering);
 }
 
 TrainerProgress FromProto(const proto::CheckpointProgress& from) {
-  return {from.committed_orders(), from.episodes(),
-          from.transitions(),      from.updates(),
-          from.replay_size(),      from.current_version(),
-          from.target_version(),   from.epsilon(),
-          from.learning_rate(),    from.loss(),
-          from.staleness_updates()};
+  return {from.committed_orders(),  from.episodes(),
+          from.transitions(),       from.updates(),
+          from.replay_size(),       from.current_version(),
+          from.target_version(),    from.epsilon(),
+          from.learning_rate(),     from.loss(),
+          from.staleness_updates(), from.delivering()};
 }
 
 void ToProto(const OrderInFlight& from, proto::CheckpointOrder& to) {
@@ -121,19 +169,8 @@ class VectorReader {
   std::string origin_;
 };
 
-std::vector<int16_t> ReadActions(const proto::Checkpoint& from, const std::string& origin) {
-  std::vector<int16_t> actions;
-  actions.reserve(static_cast<size_t>(from.actions_size()));
-  for (const int32_t action : from.actions()) {
-    Expect(action >= 0 && action <= std::numeric_limits<int16_t>::max(), origin,
-           fmt::format("actions: found {}", action));
-    actions.push_back(static_cast<int16_t>(action));
-  }
-  return actions;
-}
-
 /// Sets the fields of `to` that hold the state.
-void WriteTrainingState(const TrainingState& from, proto::Checkpoint& to) {
+void WriteTrainingState(const TrainingState& from, bool repeatable, proto::Checkpoint& to) {
   ToProto(from.progress, *to.mutable_progress());
   for (const OrderInFlight& order : from.orders) {
     ToProto(order, *to.add_orders());
@@ -152,7 +189,16 @@ void WriteTrainingState(const TrainingState& from, proto::Checkpoint& to) {
   to.set_adam_beta2_power(from.adam.beta2_power);
   to.set_adam_first_moment(Bytes(from.adam.first_moment));
   to.set_adam_second_moment(Bytes(from.adam.second_moment));
-  to.mutable_actions()->Add(from.actions.begin(), from.actions.end());
+  for (const auto& episode : from.replay) {
+    ToProto(*episode, repeatable, *to.add_replay());
+  }
+  if (from.partial_evaluation.episodes > 0) {
+    proto::CheckpointPartialEvaluation& partial = *to.mutable_partial_evaluation();
+    partial.set_episodes(from.partial_evaluation.episodes);
+    partial.set_successes(from.partial_evaluation.successes);
+    partial.mutable_figures()->Add(from.partial_evaluation.figures.begin(),
+                                   from.partial_evaluation.figures.end());
+  }
   if (from.last_evaluation) {
     ToProto(*from.last_evaluation, *to.mutable_last_evaluation());
   }
@@ -160,13 +206,16 @@ void WriteTrainingState(const TrainingState& from, proto::Checkpoint& to) {
     ToProto(from.best->evaluation, *to.mutable_best_evaluation());
     to.set_best_parameters(Bytes(*from.best->parameters));
   }
+  if (from.delivered) {
+    ToProto(*from.delivered, *to.mutable_delivered_evaluation());
+  }
 }
 
-/// Reads the state of a training whose networks have `parameters` values. Throws UsageError that names
-/// `origin` and the field if a size or an action is wrong.
-TrainingState ReadTrainingState(const proto::Checkpoint& from, int64_t parameters,
+/// Reads the state of a training of this experiment. Throws UsageError that names
+/// `origin` and the field if a size is wrong.
+TrainingState ReadTrainingState(const proto::Checkpoint& from, const Experiment& experiment,
                                 const std::string& origin) {
-  const VectorReader reader(parameters, origin);
+  const VectorReader reader(experiment.network_shape().parameter_count(), origin);
   TrainingState to;
   to.progress = FromProto(from.progress());
   for (const proto::CheckpointOrder& order : from.orders()) {
@@ -183,13 +232,23 @@ TrainingState ReadTrainingState(const proto::Checkpoint& from, int64_t parameter
   to.adam = {from.adam_steps(), from.adam_beta1_power(), from.adam_beta2_power(),
              reader.Read(from.adam_first_moment(), "adam_first_moment"),
              reader.Read(from.adam_second_moment(), "adam_second_moment")};
-  to.actions = ReadActions(from, origin);
+  for (const proto::CheckpointEpisode& episode : from.replay()) {
+    to.replay.push_back(FromProto(episode, experiment.world(), origin));
+  }
+  if (from.has_partial_evaluation()) {
+    const proto::CheckpointPartialEvaluation& partial = from.partial_evaluation();
+    to.partial_evaluation = {
+        partial.episodes(), partial.successes(), {partial.figures().begin(), partial.figures().end()}};
+  }
   if (from.has_last_evaluation()) {
     to.last_evaluation = FromProto(from.last_evaluation());
   }
   if (from.has_best_evaluation()) {
     to.best = {FromProto(from.best_evaluation()),
                reader.ReadShared(from.best_parameters(), "best_parameters")};
+  }
+  if (from.has_delivered_evaluation()) {
+    to.delivered = FromProto(from.delivered_evaluation());
   }
   return to;
 }
@@ -202,7 +261,7 @@ std::string SerializeCheckpoint(const Checkpoint& checkpoint) {
   to.set_arithmetic_fingerprint(checkpoint.arithmetic_fingerprint);
   to.set_config_hash(checkpoint.experiment.hash());
   to.set_config_text(checkpoint.experiment.Text());
-  WriteTrainingState(checkpoint.training, to);
+  WriteTrainingState(checkpoint.training, checkpoint.experiment.world().description().repeatable, to);
   to.set_resumptions(checkpoint.resumptions);
   to.set_wall_s(checkpoint.wall_s);
   to.set_metrics(checkpoint.metrics);
@@ -225,14 +284,17 @@ std::string SerializeCheckpoint(const Checkpoint& checkpoint) {
   return file.SerializeAsString();
 }
 
-int64_t CheckpointBytes(int64_t parameters, int64_t versions, int64_t actions) {
-  constexpr int64_t kCopies = 3;       // Protobuf's message, its content, the file
-  constexpr int64_t kCopied = 4;       // current and target network, Adam's moments; others are shared
-  constexpr int64_t kBest = 1;         // the best evaluated network
-  constexpr int64_t kVarintBytes = 2;  // of an action in content and file: below 2^14
+int64_t CheckpointBytes(int64_t parameters, int64_t versions, int64_t episode_bytes) {
+  constexpr int64_t kCopies = 3;  // Protobuf's message, its content, the file
+  constexpr int64_t kCopied = 4;  // current and target network, Adam's moments; others are shared
+  constexpr int64_t kBest = 1;    // the best evaluated network
   const int64_t network = parameters * static_cast<int64_t>(sizeof(Vector::Scalar));
-  const int64_t of_action = sizeof(int16_t) + sizeof(int32_t) + (kCopies - 1) * kVarintBytes;
-  return kCopied * network + kCopies * (kCopied + kBest + versions) * network + of_action * actions;
+  return kCopied * network + kCopies * ((kCopied + kBest + versions) * network + episode_bytes);
+}
+
+int64_t CheckpointedEpisodeBytes(const World& world, int64_t transitions) {
+  return world.description().repeatable ? transitions * static_cast<int64_t>(sizeof(int16_t))
+                                        : EpisodeHistory::BytesFor(world, transitions);
 }
 
 bool LooksLikeCheckpoint(std::string_view content) {
@@ -247,9 +309,9 @@ Checkpoint ParseCheckpoint(std::string_view content, const std::string& origin) 
   Expect(experiment.hash() == from.config_hash(), origin,
          fmt::format("its configuration has hash {:08x}, expected {:08x}", experiment.hash(),
                      from.config_hash()));
-  const int64_t parameters = experiment.network_shape().parameter_count();
+  TrainingState training = ReadTrainingState(from, experiment, origin);
   Checkpoint checkpoint{std::move(experiment), from.arithmetic_fingerprint(), from.run_id(),
-                        ReadTrainingState(from, parameters, origin)};
+                        std::move(training)};
   checkpoint.resumptions = from.resumptions();
   checkpoint.wall_s = from.wall_s();
   checkpoint.metrics = from.metrics();

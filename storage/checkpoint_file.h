@@ -27,9 +27,12 @@ struct Checkpoint {
 
 /// The most memory that a checkpoint takes while it is written, bytes: the copied state, the same as
 /// Protobuf's message, its serialized content, and the file. `parameters` is the number of values of a
-/// network, `versions` the number of network versions in the checkpoint, `actions` the number of actions of
-/// the replay memory.
-int64_t CheckpointBytes(int64_t parameters, int64_t versions, int64_t actions);
+/// network, `versions` the number of network versions in the checkpoint, `episode_bytes` the memory of the
+/// episodes in the replay memory.
+int64_t CheckpointBytes(int64_t parameters, int64_t versions, int64_t episode_bytes);
+
+/// The bytes of the replay memory's episodes in a checkpoint, if they have so many transitions.
+int64_t CheckpointedEpisodeBytes(const World& world, int64_t transitions);
 
 /// Returns the bytes of a checkpoint file. Throws Failure if they exceed 2 GB, Protobuf's limit.
 std::string SerializeCheckpoint(const Checkpoint& checkpoint);

@@ -21,7 +21,7 @@ OptimumSearch::OptimumSearch(const World& world, Limits limits, ProcessorClock p
       limits_(limits),
       processor_clock_(std::move(processor_clock)),
       full_priority_(getpriority(PRIO_PROCESS, 0)),
-      ended_(limits.processor_seconds <= 0) {
+      ended_(limits.processor_seconds <= 0 || !CanPlan(world)) {
   if (!ended_) {
     thread_ = std::thread([this] { Search(); });
   }

@@ -50,8 +50,8 @@ class OptimumSearch {
   /// Returns the processor time of the calling thread, microseconds.
   using ProcessorClock = std::function<int64_t()>;
 
-  /// Starts the search. `world` must outlive the object. `processor_clock` is called on the search's thread
-  /// only.
+  /// Starts the search, if the planner knows this kind of world. `world` must outlive the object.
+  /// `processor_clock` is called on the search's thread only.
   OptimumSearch(const World& world, Limits limits,
                 ProcessorClock processor_clock = ThreadProcessorMicroseconds);
   /// Stops the search.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -16,18 +17,15 @@
 #include "storage/checkpoint_file.h"
 #include "storage/run_folder.h"
 #include "training/flyer.h"
-#include "worlds/uav/baselines.h"
+#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 namespace {
 
-constexpr char kAoiPolicy[] = "aoi";
-constexpr char kDistancePolicy[] = "distance";
 constexpr char kOptimalPolicy[] = "optimal";
 
 /// The possible values of --policy, for texts.
-constexpr char kPolicyKinds[] =
-    "aoi, distance, optimal, the folder of a run (with a best.network), a network file or a checkpoint";
+constexpr char kPolicyFiles[] = "the folder of a run (with a best.network), a network file or a checkpoint";
 
 constexpr char kBestNetwork[] = "best.network";
 
@@ -35,28 +33,33 @@ std::string Describe(const World& world, const PlannerProgress& progress, double
   return fmt::format(
       "searching for {:.0f} s | slot {} of {} | {} labels of at most {} | average AoI between {:.4f} and "
       "{:.4f}",
-      passed_s, progress.slot, world.scenario().slots, progress.labels, progress.width,
+      passed_s, progress.slot, world.longest_episode() + 1, progress.labels, progress.width,
       progress.lower_bound_average, progress.best_average);
 }
 
-[[noreturn]] void RefusePolicy(const std::string& problem) {
-  throw UsageError(fmt::format("--policy: expected {}; {}", kPolicyKinds, problem));
+/// `others` are the names of the world's own policies.
+[[noreturn]] void RefusePolicy(const std::string& problem, const std::vector<std::string>& others) {
+  const std::string names = others.empty() ? "" : fmt::format("; or {}", fmt::join(others, ", "));
+  throw UsageError(fmt::format("--policy: expected {}{}; {}", kPolicyFiles, names, problem));
 }
 
 /// Returns the path of the network file or checkpoint that the policy names.
-std::filesystem::path PolicyFile(const std::string& policy) {
+std::filesystem::path PolicyFile(const std::string& policy, const std::vector<std::string>& others) {
   const std::filesystem::path path(policy);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    RefusePolicy(fmt::format("\"{}\" is none of these, and there is no such file{}", policy,
-                             DidYouMean(policy, {kAoiPolicy, kDistancePolicy, kOptimalPolicy})));
+    RefusePolicy(fmt::format("\"{}\" is none of these, and there is no such file{}{}", policy,
+                             others.empty() ? "; the world has no policies of its own" : "",
+                             DidYouMean(policy, others)),
+                 others);
   }
   if (!std::filesystem::is_directory(path, error)) {
     return path;
   }
   if (!std::filesystem::exists(path / kBestNetwork, error)) {
     RefusePolicy(
-        fmt::format("the folder {} has no {}{}", policy, kBestNetwork, NewestRunHint(path, kBestNetwork)));
+        fmt::format("the folder {} has no {}{}", policy, kBestNetwork, NewestRunHint(path, kBestNetwork)),
+        others);
   }
   return path / kBestNetwork;
 }
@@ -76,20 +79,27 @@ StoredNetwork ReadPolicyFile(const std::filesystem::path& path) {
   return {checkpoint.experiment, best->evaluation.version, best->evaluation.updates, *best->parameters};
 }
 
-/// Whether this policy needs no file.
-bool IsBuiltInPolicy(const std::string& policy) {
-  return policy == kAoiPolicy || policy == kDistancePolicy || policy == kOptimalPolicy;
+/// The policies of a world that need no file.
+std::vector<std::string> BuiltInPolicies(const World& world) {
+  std::vector<std::string> names;
+  for (const ReferencePolicy& policy : world.reference_policies()) {
+    names.push_back(policy.name);
+  }
+  if (CanPlan(world)) {
+    names.push_back(kOptimalPolicy);
+  }
+  return names;
 }
 
 /// Reads the network that a path names. The path may be a network file, the folder of a run (its
 /// best.network) or a checkpoint (its best network so far). Throws UsageError that says what a policy can be
 /// if the path is none of these.
-StoredNetwork ReadPolicy(const std::string& policy) {
-  const std::filesystem::path path = PolicyFile(policy);
+StoredNetwork ReadPolicy(const std::string& policy, const std::vector<std::string>& others) {
+  const std::filesystem::path path = PolicyFile(policy, others);
   try {
     return ReadPolicyFile(path);
   } catch (const Error& error) {
-    RefusePolicy(error.what());
+    RefusePolicy(error.what(), others);
   }
 }
 
@@ -106,8 +116,8 @@ Experiment ExperimentOfNetwork(const PolicyChoice& choice, const StoredNetwork& 
   }
   Experiment given = GivenExperiment(choice);
   if (given.network_shape().layer_sizes() != network.experiment.network_shape().layer_sizes()) {
-    throw UsageError(fmt::format("{}: its network (sensors, hidden layers) is not that of {}", choice.config,
-                                 choice.policy));
+    throw UsageError(fmt::format("{}: its network (inputs, hidden layers, actions) is not that of {}",
+                                 choice.config, choice.policy));
   }
   return given;
 }
@@ -118,7 +128,9 @@ void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
   app.add_option("--config", choice.config,
                  ConfigHelp(std::string("the one of the trained policy, or ") + kDefaultExperiment));
   app.add_option("--set", choice.settings, "Override one field: path=value; may be repeated");
-  app.add_option("--policy", choice.policy, kPolicyKinds)->required();
+  app.add_option("--policy", choice.policy,
+                 std::string(kPolicyFiles) + "; in the UAV's world also aoi, distance or optimal")
+      ->required();
   app.add_option("--time-limit-s", choice.limits.seconds,
                  "For the policy optimal: stop the search after so many seconds; default: no limit")
       ->check(CLI::Range(0.001, 1e6));
@@ -130,26 +142,30 @@ void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
 }
 
 ChosenPolicy ReadChoice(const PolicyChoice& choice) {
-  if (IsBuiltInPolicy(choice.policy)) {
-    return {GivenExperiment(choice), std::nullopt};
+  std::error_code error;
+  std::vector<std::string> built_in;
+  if (!std::filesystem::exists(choice.policy, error)) {  // then it may be the name of one
+    Experiment given = GivenExperiment(choice);
+    built_in = BuiltInPolicies(given.world());
+    if (std::find(built_in.begin(), built_in.end(), choice.policy) != built_in.end()) {
+      return {std::move(given), std::nullopt};
+    }
   }
-  StoredNetwork network = ReadPolicy(choice.policy);
+  StoredNetwork network = ReadPolicy(choice.policy, built_in);
   Experiment experiment = ExperimentOfNetwork(choice, network);
   return {std::move(experiment), std::move(network)};
 }
 
-FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen) {
-  FlownPolicy flown(chosen.experiment);
+FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen, uint64_t seed) {
   if (chosen.network) {
-    flown.flight = FlyNetwork(flown.world, flown.experiment, *chosen.network);
-  } else if (choice.policy == kOptimalPolicy) {
-    flown.plan = PlanWithin(flown.world, choice.limits);
-    flown.flight = flown.plan->flight;
-  } else {
-    flown.flight =
-        FlyBaseline(flown.world, choice.policy == kAoiPolicy ? BaselineKind::kAoi : BaselineKind::kDistance);
+    const auto parameters = std::make_shared<const Vector>(chosen.network->parameters);
+    return {chosen.experiment, FlyGreedily(chosen.experiment, seed, parameters)};
   }
-  return flown;
+  if (choice.policy == kOptimalPolicy) {
+    Plan plan = PlanWithin(chosen.experiment.world(), choice.limits);
+    return {chosen.experiment, plan.flight, plan};
+  }
+  return {chosen.experiment, chosen.experiment.world().FlyReference(choice.policy)};
 }
 
 std::string FoundFlightName(bool proved) {
@@ -161,19 +177,11 @@ std::string FlightName(const FlownPolicy& flown, const std::string& policy) {
 }
 
 std::string FlightSummary(const FlownPolicy& flown, const std::string& policy) {
-  const AoiFigures figures = Figures(flown.world, flown.flight);
+  const UavWorld& world = RequireUavWorld(flown.world(), "a flight");
+  const AoiFigures figures = Figures(world, flown.flight);
   return fmt::format("{}: {}; average AoI {:.3f} slots, total AoI {}, {:.0f} J left",
-                     FlightName(flown, policy), OutcomeName(flown.flight.outcome), figures.average_aoi,
-                     figures.total_aoi, ResidualEnergy(flown.world, flown.flight));
-}
-
-Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network) {
-  const size_t trained_for = network.experiment.scenario().sensors.size();
-  if (trained_for != world.scenario().sensors.size()) {
-    throw UsageError(fmt::format("--policy: the network was trained for {} sensors, the scenario has {}",
-                                 trained_for, world.sensors()));
-  }
-  return FlyGreedily(world, experiment, std::make_shared<const Vector>(network.parameters));
+                     FlightName(flown, policy), OutcomeName(OutcomeOf(flown.flight)), figures.average_aoi,
+                     figures.total_aoi, ResidualEnergy(world, flown.flight));
 }
 
 Plan PlanWithin(const World& world, const PlannerLimits& limits) {

@@ -1,6 +1,6 @@
-// Reads from the command line which policy to fly in which world, and flies it greedily: a baseline, a
-// trained network or the exact optimum. For `evaluate`, `fly` and reports. Any thread may call these
-// functions.
+// Reads from the command line which policy to fly in which world, and flies it greedily: a reference policy
+// of the world, a trained network or the exact optimum. For `evaluate`, `fly` and reports. Any thread may
+// call these functions.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,6 @@
 #include "msgs/experiment.h"
 #include "planner/planner.h"
 #include "storage/network_file.h"
-#include "worlds/uav/aoi_figures.h"
 
 namespace CLI {
 class App;
@@ -38,27 +37,27 @@ struct PolicyChoice {
 /// `choice`.
 void AddPolicyOptions(CLI::App& app, PolicyChoice& choice);
 
-/// A policy and the experiment in whose world it flies, read and checked.
+/// A policy and the experiment in whose world it acts, read and checked.
 struct ChosenPolicy {
   Experiment experiment;
-  std::optional<StoredNetwork> network;  ///< none if the policy is a baseline or the optimum
+  std::optional<StoredNetwork> network;  ///< none if the policy is a reference policy or the optimum
 };
 
 /// Reads the files that the choice names. Throws UsageError if they can't be used or do not fit together.
 ChosenPolicy ReadChoice(const PolicyChoice& choice);
 
-/// A flight, its world, and the experiment that defines the world.
+/// An episode of a policy, and the experiment that defines its world.
 struct FlownPolicy {
-  explicit FlownPolicy(const Experiment& given) : experiment(given), world(given.scenario()) {}
   Experiment experiment;
-  World world;
   Episode flight;
-  std::optional<Plan> plan;  ///< set if the policy is "optimal"
+  std::optional<Plan> plan = std::nullopt;  ///< set if the policy is "optimal"
+
+  const World& world() const { return experiment.world(); }
 };
 
-/// Flies one episode of the policy that ReadChoice returned. The search for the optimum ends early if the
-/// program is asked to stop.
-FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen);
+/// Flies the episode of a seed with the policy that ReadChoice returned. The search for the optimum ends
+/// early if the program is asked to stop.
+FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen, uint64_t seed = 0);
 
 /// Returns the name of the best flight that a search found: "exact optimum" only if that is proved.
 std::string FoundFlightName(bool proved);
@@ -67,15 +66,12 @@ std::string FoundFlightName(bool proved);
 /// search for the optimum ended before the proof.
 std::string FlightName(const FlownPolicy& flown, const std::string& policy);
 
-/// Describes a flight: "aoi: arrived; average AoI 17.543 slots, total AoI 3684, 14211 J left".
+/// Describes an episode in the UAV's world: "aoi: arrived; average AoI 17.543 slots, total AoI 3684, 14211 J
+/// left".
 std::string FlightSummary(const FlownPolicy& flown, const std::string& policy);
 
-/// Flies one greedy episode of a network in `world`, with the masks of `experiment`. Throws UsageError if the
-/// network is for another number of sensors.
-Episode FlyNetwork(const World& world, const Experiment& experiment, const StoredNetwork& network);
-
 /// Searches for the exact optimum until it is proved, a limit is reached or the program is asked to stop.
-/// Returns the best flight found.
+/// Returns the best flight found. CHECKs CanPlan.
 Plan PlanWithin(const World& world, const PlannerLimits& limits);
 
 }  // namespace fresco

@@ -11,6 +11,18 @@
 #include "storage/network_file.h"
 
 namespace fresco {
+namespace {
+
+std::string MetricsHeader(const WorldDescription& description) {
+  std::string header =
+      "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss," + description.success;
+  for (const Quantity& figure : description.figures) {
+    header += "," + figure.name;
+  }
+  return header + "\n";
+}
+
+}  // namespace
 
 void RunFolder::CheckNew(const std::filesystem::path& directory) {
   CheckOutputFolder(directory);
@@ -32,9 +44,7 @@ RunFolder::RunFolder(std::filesystem::path directory, const Experiment& experime
     : directory_(std::move(directory)),
       experiment_(experiment),
       checkpoints_(directory_),
-      metrics_(
-          "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,total_aoi,"
-          "average_aoi,sum_aoi\n") {
+      metrics_(MetricsHeader(experiment.world().description())) {
   Make(directory_);
   if (use == Use::kNewRun) {
     RefuseResults(directory_);
@@ -68,11 +78,13 @@ void RunFolder::ClearLeftovers() const {
 }
 
 void RunFolder::AddMetrics(const Evaluation& evaluation, const TrainerProgress& progress, double wall_s) {
-  metrics_ +=
-      fmt::format("{:.3f},{},{},{},{},{:.6g},{:.6g},{:.6g},{},{},{:.6f},{:.6f}\n", wall_s,
-                  evaluation.episodes, progress.transitions, evaluation.updates, evaluation.version,
-                  progress.epsilon, progress.learning_rate, progress.loss, evaluation.arrived ? 1 : 0,
-                  evaluation.figures.total_aoi, evaluation.figures.average_aoi, evaluation.figures.sum_aoi);
+  metrics_ += fmt::format("{:.3f},{},{},{},{},{:.6g},{:.6g},{:.6g},{:g}", wall_s, evaluation.episodes,
+                          progress.transitions, evaluation.updates, evaluation.version, progress.epsilon,
+                          progress.learning_rate, progress.loss, evaluation.success);
+  for (const double figure : evaluation.figures) {
+    metrics_ += fmt::format(",{:.10g}", figure);
+  }
+  metrics_ += '\n';
   writer_.Write({"metrics", directory_ / "metrics.csv", [text = metrics_] { return text; }, {}});
 }
 

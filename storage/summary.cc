@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/bytes.h"
 #include "core/identifier.h"
 #include "core/installation.h"
-#include "worlds/uav/baselines.h"
 
 namespace fresco {
 namespace {
@@ -37,13 +37,46 @@ constexpr BusCounterField kBusCounterFields[] = {
     {"weights_chunks_repeated", &BusCounters::weights_chunks_repeated},
 };
 
-OrderedJson BaselineFigures(const World& world, BaselineKind kind) {
-  const Episode flight = FlyBaseline(world, kind);
-  const AoiFigures figures = Figures(world, flight);
-  return {{"total_aoi", figures.total_aoi},
-          {"average_aoi", figures.average_aoi},
-          {"sum_aoi", figures.sum_aoi},
-          {"arrived", flight.arrived()}};
+/// The number, as a whole one if it is.
+OrderedJson Number(double value) {
+  constexpr double kLargestWhole = 1e15;
+  const bool whole = std::abs(value) < kLargestWhole && value == std::trunc(value);
+  return whole ? OrderedJson(static_cast<int64_t>(value)) : OrderedJson(value);
+}
+
+std::vector<double> FiguresOf(const World& world, const Episode& episode) {
+  std::vector<double> figures(world.description().figures.size());
+  world.Judge(episode, figures);
+  return figures;
+}
+
+/// Adds each figure under its name with the prefix; null without figures.
+void AddFigures(const World& world, const std::string& prefix, const std::vector<double>* figures,
+                OrderedJson& json) {
+  for (size_t i = 0; i < world.description().figures.size(); ++i) {
+    json[prefix + world.description().figures[i].name] =
+        figures == nullptr ? OrderedJson() : Number((*figures)[i]);
+  }
+}
+
+OrderedJson WorldJson(const WorldDescription& description) {
+  OrderedJson json = {{"name", description.name}, {"success", description.success}};
+  for (const Quantity& figure : description.figures) {
+    json["figures"].push_back({{"name", figure.name}, {"unit", figure.unit}});
+  }
+  return json;
+}
+
+OrderedJson Baselines(const World& world) {
+  OrderedJson json = OrderedJson::object();
+  for (const ReferencePolicy& policy : world.reference_policies()) {
+    const Episode episode = world.FlyReference(policy.name);
+    const std::vector<double> figures = FiguresOf(world, episode);
+    OrderedJson& baseline = json[policy.name] = {{"title", policy.title}};
+    AddFigures(world, "", &figures, baseline);
+    baseline[world.description().success] = world.Succeeded(episode);
+  }
+  return json;
 }
 
 OrderedJson Counters(const BusCounters& counters) {
@@ -54,34 +87,38 @@ OrderedJson Counters(const BusCounters& counters) {
   return json;
 }
 
-void AddPolicy(const std::optional<BestNetwork>& best, OrderedJson& json) {
+/// The evaluation that the run is judged by.
+const Evaluation* JudgedBy(const Trainer& trainer) {
+  if (trainer.delivered()) {
+    return &*trainer.delivered();
+  }
+  return trainer.best() ? &trainer.best()->evaluation : nullptr;
+}
+
+void AddPolicy(const World& world, const Evaluation* evaluation, OrderedJson& json) {
   const auto value = [&](auto figure) {
-    return best ? OrderedJson(figure(best->evaluation)) : OrderedJson();
+    return evaluation ? OrderedJson(figure(*evaluation)) : OrderedJson();
   };
-  json["total_aoi"] = value([](const Evaluation& e) { return e.figures.total_aoi; });
-  json["average_aoi"] = value([](const Evaluation& e) { return e.figures.average_aoi; });
-  json["sum_aoi"] = value([](const Evaluation& e) { return e.figures.sum_aoi; });
-  json["arrived"] = value([](const Evaluation& e) { return e.arrived; });
-  json["best_version"] = value([](const Evaluation& e) { return e.version; });
+  json["score"] = value([](const Evaluation& e) { return Number(e.score()); });
+  json["success"] = value([](const Evaluation& e) { return Number(e.success); });
+  AddFigures(world, "", evaluation ? &evaluation->figures : nullptr, json);
+  json[world.description().success] = value([](const Evaluation& e) { return e.success == 1; });
 }
 
 void AddOptimum(const SummaryInputs& inputs, OrderedJson& json) {
+  const World& world = inputs.experiment.world();
+  const std::string& score = world.description().figures.front().name;
   const Plan* plan = inputs.optimum.plan.get();
-  const std::optional<BestNetwork>& best = inputs.trainer.best();
-  const bool found = plan != nullptr;
-  const bool proved = found && plan->optimal;
-  const AoiFigures figures = found ? Figures(inputs.world, plan->flight) : AoiFigures{};
-  const double lower_bound = found ? plan->lower_bound_average_aoi : 0;
-  const auto value_if = [](bool known, auto value) { return known ? OrderedJson(value) : OrderedJson(); };
+  const Evaluation* evaluation = JudgedBy(inputs.trainer);
+  const bool proved = plan != nullptr && plan->optimal;
+  const std::vector<double> found = plan == nullptr ? std::vector<double>() : FiguresOf(world, plan->flight);
   json["optimum_search"] = SearchEndName(inputs.optimum.end);
-  json["optimal_total_aoi"] = value_if(proved, figures.total_aoi);
-  json["optimal_average_aoi"] = value_if(proved, figures.average_aoi);
-  json["best_found_total_aoi"] = value_if(found, figures.total_aoi);
-  json["best_found_average_aoi"] = value_if(found, figures.average_aoi);
-  json["lower_bound_average_aoi"] = value_if(found, lower_bound);
-  const bool has_gap = proved && best && best->evaluation.arrived;
+  AddFigures(world, "optimal_", proved ? &found : nullptr, json);
+  AddFigures(world, "best_found_", plan != nullptr ? &found : nullptr, json);
+  json["lower_bound_" + score] = plan != nullptr ? Number(plan->lower_bound_average_aoi) : OrderedJson();
+  const bool has_gap = proved && evaluation != nullptr && evaluation->success == 1;
   json["gap_percent"] =
-      has_gap ? OrderedJson(GapPercent(best->evaluation.figures.average_aoi, lower_bound)) : OrderedJson();
+      has_gap ? OrderedJson(GapPercent(evaluation->score(), plan->lower_bound_average_aoi)) : OrderedJson();
 }
 
 }  // namespace
@@ -106,23 +143,24 @@ BusCounters FromMap(const std::map<std::string, int64_t>& map) {
 bool IsFinished(const std::string& summary_json) {
   const auto summary = nlohmann::json::parse(summary_json, nullptr, false);
   return summary.is_object() && summary.value("completed", false) &&
-         summary.value("optimum_search", "") != SearchEndName(SearchEnd::kStopped);
+         summary.value("optimum_search", SearchEndName(SearchEnd::kOff)) !=
+             SearchEndName(SearchEnd::kStopped);
 }
 
 std::string OptimumJson(const World& world, const Plan& plan) {
-  const AoiFigures figures = Figures(world, plan.flight);
-  OrderedJson json = {{"optimal", plan.optimal},
-                      {"total_aoi", figures.total_aoi},
-                      {"average_aoi", figures.average_aoi},
-                      {"lower_bound_total_aoi", plan.lower_bound_total_aoi},
-                      {"lower_bound_average_aoi", plan.lower_bound_average_aoi},
-                      {"labels", plan.labels}};
+  const std::vector<double> figures = FiguresOf(world, plan.flight);
+  OrderedJson json = {{"optimal", plan.optimal}};
+  AddFigures(world, "", &figures, json);
+  json["lower_bound_total_aoi"] = plan.lower_bound_total_aoi;
+  json["lower_bound_average_aoi"] = plan.lower_bound_average_aoi;
+  json["labels"] = plan.labels;
   json["actions"] = plan.flight.actions;
   return json.dump();
 }
 
 std::string SummaryJson(const SummaryInputs& inputs) {
   const TrainerProgress& progress = inputs.trainer.progress();
+  const World& world = inputs.experiment.world();
   OrderedJson json;
   json["run_id"] = IdentifierText(inputs.run_id);
   json["config_hash"] = fmt::format("{:08x}", inputs.experiment.hash());
@@ -135,10 +173,17 @@ std::string SummaryJson(const SummaryInputs& inputs) {
   json["updates_per_s"] = static_cast<double>(progress.updates) / inputs.wall_s;
   json["transitions_per_s"] = static_cast<double>(progress.transitions) / inputs.wall_s;
   json["weights_crc32c"] = fmt::format("{:08x}", Crc32c(Values(inputs.trainer.current())));
-  AddPolicy(inputs.trainer.best(), json);
-  AddOptimum(inputs, json);
-  json["baselines"] = {{"aoi", BaselineFigures(inputs.world, BaselineKind::kAoi)},
-                       {"distance", BaselineFigures(inputs.world, BaselineKind::kDistance)}};
+  json["world"] = WorldJson(world.description());
+  AddPolicy(world, JudgedBy(inputs.trainer), json);
+  json["best_version"] =
+      inputs.trainer.best() ? OrderedJson(inputs.trainer.best()->evaluation.version) : OrderedJson();
+  json["evaluation_episodes"] = inputs.experiment.schedule().evaluation_episodes();
+  if (CanPlan(world)) {
+    AddOptimum(inputs, json);
+  }
+  if (!world.reference_policies().empty()) {
+    json["baselines"] = Baselines(world);
+  }
   json["staleness_updates"] = progress.staleness_updates;
   json["bus"] = Counters(inputs.counters);
   json["resumptions"] = inputs.resumptions;

@@ -46,7 +46,6 @@ struct CheckpointFigures {
 /// Everything that a summary is made of.
 struct SummaryInputs {
   const Experiment& experiment;
-  const World& world;
   int64_t run_id;
   bool completed;  ///< false: the training was interrupted
   double wall_s;
@@ -58,14 +57,21 @@ struct SummaryInputs {
 };
 
 /// Returns the JSON object of summary.json.
-///  - `arrived`, `total_aoi`, `average_aoi` and `sum_aoi` are those of the best evaluated version; null
-///    before the first evaluation.
+///  - `world` has the kind of world, the name of an episode's success, and its figures with their units; the
+///    first one is the score.
+///  - `score`, `success` (the share of episodes that succeeded) and every figure by its name are those of the
+///    best evaluated version; null before the first evaluation. In a world without chance they are exact;
+///    otherwise they are means of `evaluation_episodes` episodes: fresh ones once the training is complete,
+///    before that those by which the version was chosen. The name of the success, for example `arrived`, says
+///    whether all of them succeeded.
+///  - `baselines` has the same of each reference policy of the world.
+/// Only worlds with a search for the optimum have the following:
 ///  - `optimum_search` says how the search ended (SearchEndName).
 ///  - `optimal_...` are the figures of the exact optimum; null if it is not proved.
-///  - `gap_percent` says how far average_aoi is above the optimum; null if that is not proved or the policy
-///    does not arrive.
-///  - `best_found_...` are the figures of the best flight that the search found, which may be the optimum. No
-///    flight has an average AoI below `lower_bound_average_aoi`. Both are null if the search has no result.
+///  - `gap_percent` says how far the score is above the optimum; null if that is not proved or the policy
+///    does not succeed.
+///  - `best_found_...` are the figures of the best episode that the search found, which may be the optimum.
+///    No episode has a score below `lower_bound_...`. Both are null if the search has no result.
 std::string SummaryJson(const SummaryInputs& inputs);
 
 /// Whether a run with this summary is finished: its training is complete, and its search for the optimum was

@@ -12,8 +12,9 @@ ALLOWED = {
     "nn": {"core"},
     "worlds": {"core"},
     "planner": {"core", "worlds"},
+    "plugins": {"core", "worlds"},
     "bus": {"core"},
-    "msgs": {"core", "nn", "worlds", "bus"},
+    "msgs": {"core", "nn", "worlds", "plugins", "bus"},
     "training": {"core", "nn", "worlds", "msgs"},
     "storage": {"core", "nn", "worlds", "planner", "msgs", "training"},
     "actors": {"core", "nn", "worlds", "bus", "msgs", "training"},
@@ -31,7 +32,7 @@ RESERVED = {
     "sodium": {"bus"},
     "Eigen/": {"nn"},
     "google/protobuf/": {"msgs"},
-    "nlohmann/": {"storage", "logs", "processes", "report", "soak", "tools"},
+    "nlohmann/": {"plugins", "storage", "logs", "processes", "report", "soak", "tools"},
 }
 PURE = {"nn", "worlds", "planner", "training"}  # no input or output, no clock, no random numbers but the counter-based ones
 IMPURE = re.compile(r"#include <(iostream|fstream|cstdio|chrono|random|thread|filesystem|unistd\.h)>")

@@ -1,26 +1,35 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/signals.h"
 #include "report/result_display.h"
 #include "storage/policy.h"
 #include "tools/subcommands.h"
+#include "training/schedules.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
 
+using OrderedJson = nlohmann::ordered_json;
+
 struct EvaluateOptions {
   PolicyChoice choice;
+  std::optional<int> episodes;
+  std::optional<uint64_t> seed;
   std::string format = "text";
 };
 
-void PrintText(const FlownPolicy& flown, const std::string& policy) {
+void PrintFlight(const UavWorld& world, const FlownPolicy& flown, const std::string& policy) {
   fmt::print("slot  cell      move   scheduled  AoI\n");
-  for (size_t slot = 0; slot < flown.flight.states.size(); ++slot) {
-    const State& state = flown.flight.states[slot];
-    const Action action = ActionIn(flown.world, flown.flight, slot);
+  for (size_t slot = 0; slot <= flown.flight.actions.size(); ++slot) {
+    const UavState state = StateIn(flown.flight, slot);
+    const Action action = ActionIn(world, flown.flight, slot);
     const std::string cell = fmt::format("({},{})", state.cell.column, state.cell.row);
     fmt::print("{:>4}  {:<8}  {:<5}  {:>9}  {}\n", state.slot, cell, MoveName(action.move),
                action.schedule == 0 ? "-" : std::to_string(action.schedule), fmt::join(state.aoi, " "));
@@ -39,25 +48,118 @@ void PrintProof(const Plan& plan) {
   }
 }
 
-int Evaluate(const EvaluateOptions& options) {
-  const FlownPolicy flown = FlyPolicy(options.choice, ReadChoice(options.choice));
-  if (options.format == "json") {
-    fmt::print("{}\n", FlightJson(flown.world, flown.flight, options.choice.policy, flown.plan));
-    return StopSignal::Requested() ? 1 : 0;
+/// The figures of several episodes.
+struct EpisodeFigures {
+  std::vector<uint64_t> seeds;
+  std::vector<std::vector<double>> figures;  // by episode
+  std::vector<bool> succeeded;               // by episode
+};
+
+EpisodeFigures FlyEpisodes(const EvaluateOptions& options, const ChosenPolicy& chosen) {
+  const World& world = chosen.experiment.world();
+  const proto::Schedule& schedule = chosen.experiment.schedule();
+  EpisodeFigures result;
+  for (int i = 0; i < options.episodes.value_or(schedule.evaluation_episodes()) && !StopSignal::Requested();
+       ++i) {
+    result.seeds.push_back(EvaluationSeed(options.seed.value_or(schedule.seed()), i));
+    const FlownPolicy flown = FlyPolicy(options.choice, chosen, result.seeds.back());
+    result.figures.emplace_back(world.description().figures.size());
+    world.Judge(flown.flight, result.figures.back());
+    result.succeeded.push_back(world.Succeeded(flown.flight));
   }
-  PrintText(flown, options.choice.policy);
-  if (flown.plan) {
-    PrintProof(*flown.plan);
+  return result;
+}
+
+double Mean(const EpisodeFigures& episodes, size_t figure) {
+  double sum = 0;
+  for (const std::vector<double>& figures : episodes.figures) {
+    sum += figures[figure];
+  }
+  return sum / static_cast<double>(episodes.figures.size());
+}
+
+double SuccessShare(const EpisodeFigures& episodes) {
+  const auto successes = std::count(episodes.succeeded.begin(), episodes.succeeded.end(), true);
+  return static_cast<double>(successes) / static_cast<double>(episodes.succeeded.size());
+}
+
+void PrintEpisodes(const WorldDescription& world, const EpisodeFigures& episodes, const std::string& policy) {
+  for (size_t figure = 0; figure < world.figures.size(); ++figure) {
+    const auto [least, most] =
+        std::minmax_element(episodes.figures.begin(), episodes.figures.end(),
+                            [&](const auto& a, const auto& b) { return a[figure] < b[figure]; });
+    fmt::print("{}: {} {:.3f}{} on average over {} episodes, {:.3f} to {:.3f}\n", policy,
+               Title(world.figures[figure].name), Mean(episodes, figure),
+               world.figures[figure].unit.empty() ? "" : " " + world.figures[figure].unit,
+               episodes.figures.size(), (*least)[figure], (*most)[figure]);
+  }
+  fmt::print("{}: {} {}\n", policy, PercentText(SuccessShare(episodes)), Title(world.success));
+}
+
+std::string EpisodesJson(const WorldDescription& world, const EpisodeFigures& episodes,
+                         const std::string& policy) {
+  OrderedJson json = {{"policy", policy},
+                      {"world", world.name},
+                      {"score", Mean(episodes, 0)},
+                      {"success", SuccessShare(episodes)}};
+  for (size_t figure = 0; figure < world.figures.size(); ++figure) {
+    json[world.figures[figure].name] = Mean(episodes, figure);
+  }
+  json["episodes"] = OrderedJson::array();
+  for (size_t i = 0; i < episodes.figures.size(); ++i) {
+    OrderedJson episode = {{"seed", episodes.seeds[i]}, {world.success, bool{episodes.succeeded[i]}}};
+    for (size_t figure = 0; figure < world.figures.size(); ++figure) {
+      episode[world.figures[figure].name] = episodes.figures[i][figure];
+    }
+    json["episodes"].push_back(std::move(episode));
+  }
+  return json.dump(2);
+}
+
+/// A single flight tells everything about a policy in the UAV's world.
+int EvaluateFlight(const UavWorld& world, const EvaluateOptions& options, const ChosenPolicy& chosen) {
+  const FlownPolicy flown = FlyPolicy(options.choice, chosen);
+  if (options.format == "json") {
+    fmt::print("{}\n", FlightJson(world, flown.flight, options.choice.policy, flown.plan));
+  } else {
+    PrintFlight(world, flown, options.choice.policy);
+    if (flown.plan) {
+      PrintProof(*flown.plan);
+    }
   }
   return StopSignal::Requested() ? 1 : 0;
+}
+
+int Evaluate(const EvaluateOptions& options) {
+  const ChosenPolicy chosen = ReadChoice(options.choice);
+  const World& world = chosen.experiment.world();
+  if (const UavWorld* uav = AsUavWorld(world)) {
+    return EvaluateFlight(*uav, options, chosen);
+  }
+  const EpisodeFigures episodes = FlyEpisodes(options, chosen);
+  if (StopSignal::Requested()) {
+    return 1;
+  }
+  if (options.format == "json") {
+    fmt::print("{}\n", EpisodesJson(world.description(), episodes, options.choice.policy));
+  } else {
+    PrintEpisodes(world.description(), episodes, options.choice.policy);
+  }
+  return 0;
 }
 
 }  // namespace
 
 void AddEvaluate(CLI::App& app, Command& command) {
   auto options = std::make_shared<EvaluateOptions>();
-  CLI::App* evaluate = app.add_subcommand("evaluate", "Fly one episode greedily and show it slot by slot");
+  CLI::App* evaluate = app.add_subcommand(
+      "evaluate", "Act greedily: show a UAV's flight slot by slot, or the figures of several episodes");
   AddPolicyOptions(*evaluate, options->choice);
+  evaluate
+      ->add_option("--episodes", options->episodes,
+                   "Episodes, in worlds with chance; default: schedule.evaluation_episodes")
+      ->check(CLI::Range(1, 1'000'000));
+  evaluate->add_option("--seed", options->seed, "Seed of these episodes; default: schedule.seed");
   evaluate->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   options->choice.limits.show_progress = true;
   evaluate->callback([options, &command] { command = [options] { return Evaluate(*options); }; });

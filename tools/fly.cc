@@ -18,6 +18,7 @@
 #include "msgs/protocol_times.h"
 #include "storage/policy.h"
 #include "tools/subcommands.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -36,8 +37,9 @@ class FlightShow {
  public:
   FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
       : flown_(flown),
-        messages_(FlightMessages(flown.world, flown.flight, FlightName(flown, options.choice.policy))),
-        field_(ScenarioMessages(flown.world.scenario())),
+        messages_(FlightMessages(RequireUavWorld(flown.world(), "fresco fly"), flown.flight,
+                                 FlightName(flown, options.choice.policy))),
+        field_(ScenarioMessages(flown.world())),
         bus_(std::move(bus)),
         message_bus_(*bus_),
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
@@ -81,7 +83,7 @@ class FlightShow {
   }
 
   void SendField() {
-    next_field_us_ = clock_.now_us() + kScenarioPeriodUs;
+    next_field_us_ = clock_.now_us() + kWorldPeriodUs;
     for (const scenario_t& message : field_) {
       Send(channels_.scenario, message);
     }
@@ -122,6 +124,7 @@ class FlightShow {
 /// 0.
 int FlyOverBus(const FlyOptions& options) {
   const ChosenPolicy chosen = ReadChoice(options.choice);
+  RequireUavWorld(chosen.experiment.world(), "fresco fly");
   const std::string url = options.lcm_url.empty() ? chosen.experiment.run().lcm_url() : options.lcm_url;
   std::unique_ptr<Bus> bus =
       OpenBus(url, options.bus);  // before the search for the optimum, which may take long

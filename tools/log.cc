@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <type_traits>
 
@@ -42,9 +43,11 @@ void AddInfo(CLI::App& log, Command& command) {
 int Cat(const EventInputOptions& options) {
   TextOutput output;
   MessageDecoder decoder;
+  WorldNamesByRun names;
   EventInput input(options);
   input.ForEach([&](const LcmEvent& event) {
-    output.Write(EventJson(event, decoder) + "\n");
+    names.Add(event);
+    output.Write(EventJson(event, decoder, names) + "\n");
     if (input.is_live()) {
       output.Flush();
     }
@@ -94,35 +97,80 @@ struct ExportOptions {
   std::string out;
 };
 
-/// Writes the rows of a message to the table if it is of the chosen kind. Returns false if it is damaged.
-template <class Message>
-bool ExportMessage(const Message& message, const std::string& what, RowWriter& writer) {
-  if constexpr (std::is_same_v<Message, transitions_t>) {
-    return what != "transitions" ||
-           ForEachTransitionRow(message, [&](const NamedRow& row) { writer.Write(row); });
-  } else if constexpr (std::is_same_v<Message, actor_status_t> || std::is_same_v<Message, learner_status_t>) {
-    if (what == (std::is_same_v<Message, actor_status_t> ? "actor-statuses" : "learner-statuses")) {
-      writer.Write(StatusRow(message));
-    }
+/// Writes the rows of the chosen kind of messages to a table.
+class Exporter {
+ public:
+  Exporter(const ExportOptions& options, RowWriter& writer) : what_(options.what), writer_(writer) {}
+
+  WorldNamesByRun& names() { return names_; }
+  /// Whether transitions wait for their names. A log was searched for names before; from a bus they come.
+  void WaitForNames() { waits_for_names_ = true; }
+  int64_t damaged() const { return damaged_; }
+  int64_t unnamed() const { return unnamed_; }
+
+  void Write(const LcmEvent& event) {
+    bool sound = true;
+    const auto result = decoder_.Decode(event.message, [&](const auto& message) { sound = Export(message); });
+    damaged_ += sound && result != MessageDecoder::Result::kDamaged ? 0 : 1;
   }
-  return true;
-}
+
+ private:
+  /// Returns false if the message is damaged.
+  template <class Message>
+  bool Export(const Message& message) {
+    if constexpr (std::is_same_v<Message, transitions_t>) {
+      if (what_ != "transitions") {
+        return true;
+      }
+      const WorldNames* names = names_.Of(message.run_id);
+      if (names == nullptr && waits_for_names_) {
+        ++unnamed_;
+        return true;
+      }
+      return ForEachTransitionRow(message, names, [&](const NamedRow& row) { writer_.Write(row); });
+    } else if constexpr (std::is_same_v<Message, actor_status_t> ||
+                         std::is_same_v<Message, learner_status_t>) {
+      if (what_ == (std::is_same_v<Message, actor_status_t> ? "actor-statuses" : "learner-statuses")) {
+        writer_.Write(StatusRow(message));
+      }
+    }
+    return true;
+  }
+
+  std::string what_;
+  RowWriter& writer_;
+  WorldNamesByRun names_;
+  MessageDecoder decoder_;
+  bool waits_for_names_ = false;
+  int64_t damaged_ = 0;
+  int64_t unnamed_ = 0;
+};
 
 int Export(const ExportOptions& options) {
   EventInput input(options.input);  // checks the options before the table is overwritten
   TextOutput output(options.out);
   RowWriter writer(output, options.format == "csv" ? RowWriter::Format::kCsv : RowWriter::Format::kJsonLines);
-  MessageDecoder decoder;
-  int64_t damaged = 0;
+  Exporter exporter(options, writer);
+  if (input.is_live()) {
+    exporter.WaitForNames();
+  } else if (options.what == "transitions") {
+    EventInputOptions everything = options.input;
+    everything.selection = {};
+    EventInput(everything).ForEach([&](const LcmEvent& event) { exporter.names().Add(event); });
+  }
   input.ForEach([&](const LcmEvent& event) {
-    bool sound = true;
-    const auto result = decoder.Decode(
-        event.message, [&](const auto& message) { sound = ExportMessage(message, options.what, writer); });
-    damaged += sound && result != MessageDecoder::Result::kDamaged ? 0 : 1;
+    if (input.is_live()) {
+      exporter.names().Add(event);
+    }
+    exporter.Write(event);
   });
   output.Flush();
-  if (damaged > 0) {
-    spdlog::warn("{} messages are damaged and were left out", damaged);
+  if (exporter.damaged() > 0) {
+    spdlog::warn("{} messages are damaged and were left out", exporter.damaged());
+  }
+  if (exporter.unnamed() > 0) {
+    spdlog::warn("{} messages came before the names of their fields (FRESCO_WORLD) and were left out",
+                 exporter.unnamed());
   }
   if (!options.out.empty()) {
     fmt::print("{}: {} rows\n", options.out, writer.rows());

@@ -3,7 +3,8 @@
 
 int main(int argc, char** argv) {
   using namespace fresco;
-  Program program("fresco", "Fresco trains a UAV to keep the data of a sensor field fresh.",
+  Program program("fresco",
+                  "Fresco trains agents over LCM with the same result to the bit, whatever happens.",
                   LogStyle::kPlain);
   CLI::App& app = program.command_line();
   app.require_subcommand(1);

@@ -46,12 +46,11 @@ Settings SettingsFrom(const RetrainOptions& options) {
   return settings;
 }
 
-void RefuseOtherScenario(const Experiment& recorded, const Experiment& chosen) {
-  if (recorded.config().scenario().SerializeAsString() != chosen.config().scenario().SerializeAsString()) {
+void RefuseOtherWorld(const Experiment& recorded, const Experiment& chosen) {
+  if (recorded.WorldText() != chosen.WorldText()) {
     throw UsageError(
-        "the recorded run has another scenario than this configuration, so its episodes are not possible in "
-        "this world; keep the scenario (without --config it is the recorded one) and change agent or "
-        "schedule only");
+        "the recorded run has another world than this configuration, so its episodes are not possible here; "
+        "keep the world (without --config it is the recorded one) and change agent or schedule only");
   }
 }
 
@@ -69,7 +68,6 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
           ? Experiment::Parse(*run.config_text, "the recorded configuration", SettingsFrom(options))
           : Experiment::Load(ExperimentPath(options.config), SettingsFrom(options));
   if (chosen.hash() == run.identity.config_hash) {
-    ExpectOrdersOfThisRelease(run);
     return {recorded, chosen, Retraining::Use::kSameRun};
   }
   if (!recorded) {
@@ -78,7 +76,7 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
         "contain the whole of that; name the configuration that the run had with --config",
         options.config, chosen.hash(), run.identity.config_hash));
   }
-  RefuseOtherScenario(*recorded, chosen);
+  RefuseOtherWorld(*recorded, chosen);
   return {recorded, chosen, Retraining::Use::kExperience};
 }
 
@@ -99,6 +97,7 @@ int Retrain(const RetrainOptions& options) {
     source.key = ReadAuthenticationKey(*options.key_file);
   }
   const LoggedRun run = ChooseLoggedRun(FindLoggedRuns(source), options.run);
+  ExpectMessagesOfThisRelease(run);
   const Experiments experiments = ChooseExperiments(options, run);
   RefuseIfTooLarge({LearnerMemory(experiments.chosen)}, ReadAvailableMemory());
   WarnOfOtherArithmetic(run);

@@ -19,7 +19,8 @@
 namespace fresco {
 namespace {
 
-const std::vector<std::string> kWindows = {"flight", "learner", "actors"};
+/// What `all` opens. Java then opens flight or episode, whichever fits the world (Windows.java).
+const std::vector<std::string> kAllWindows = {"fitting", "learner", "actors"};
 
 struct SpyOptions {
   std::string lcm_url = kDefaultLcmUrl;
@@ -102,7 +103,7 @@ int Spy(SpyOptions options) {
   RequireDisplay();
   RequireProgram("java", "default-jre");
   if (options.open == std::vector<std::string>{"all"}) {
-    options.open = kWindows;
+    options.open = kAllWindows;
   }
   const std::vector<std::string> command = JavaCommand(options);
   WarnOfSmallReceiveBuffer();
@@ -123,9 +124,11 @@ void AddSpy(CLI::App& app, Command& command) {
   spy->add_option("--lcm-url", options->lcm_url, "LCM URL of the run")->capture_default_str();
   spy->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
       ->capture_default_str();
-  spy->add_option("--open", options->open, "Open these windows at once: flight,learner,actors, or all")
+  spy->add_option("--open", options->open,
+                  "Open these windows at once: flight,episode,learner,actors, or all: learner, actors, and "
+                  "whichever of flight and episode fits the world")
       ->delimiter(',')
-      ->check(OneOf({"flight", "learner", "actors", "all"}));
+      ->check(OneOf({"flight", "episode", "learner", "actors", "all"}));
   spy->add_flag("--print-table", options->print_table,
                 "Also print the table once a second: channel, type, messages received, damaged messages");
   spy->callback([options, &command] { command = [options] { return Spy(*options); }; });

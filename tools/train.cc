@@ -52,7 +52,7 @@ Settings SettingsFrom(const TrainOptions& options) {
 
 /// Starts the run and watches it until it ends or the program is asked to stop. Returns the learner's exit
 /// status.
-int MindRun(TrainingRun& run) {
+int MindRun(TrainingRun& run, const WorldDescription& world) {
   constexpr int64_t kPollUs = 50'000;
   constexpr double kSilentS = 3;
   LiveLine line(true);
@@ -61,7 +61,7 @@ int MindRun(TrainingRun& run) {
     if (run.SilentSeconds() > kSilentS) {
       line.Show(fmt::format("no status from the learner for {:.0f} s", run.SilentSeconds()));
     } else if (run.status()) {
-      line.Show(ProgressLine(*run.status()));
+      line.Show(ProgressLine(*run.status(), world));
     }
   }
   return run.End();
@@ -81,12 +81,13 @@ std::string Interruption(const std::filesystem::path& folder) {
 }
 
 /// Runs a run that was checked already, and shows its results. Returns the exit status.
-int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOptions& options) {
+int Train(TrainingRun& run, const WorldDescription& world, const std::filesystem::path& folder,
+          const TrainOptions& options) {
   const bool text = options.format == "text";
   if (options.record) {
     run.Record(options.record_split_mb);
   }
-  const int status = MindRun(run);
+  const int status = MindRun(run, world);
   const std::string summary = run.Summary();
   fmt::print("{}", text ? ResultTable(summary) : summary);
   std::fflush(stdout);
@@ -101,8 +102,8 @@ int Train(TrainingRun& run, const std::filesystem::path& folder, const TrainOpti
     fmt::print(stderr, "fresco: stopped; the training is complete, continue the search with: {}\n",
                run.ResumeCommand());
   } else if (text) {
-    fmt::print("\nlook at it: {}\nfly it:     {} evaluate --policy {}\n", (folder / "report.html").string(),
-               ProgramName(), folder.string());
+    fmt::print("\nlook at it: {}\n{}     {} evaluate --policy {}\n", (folder / "report.html").string(),
+               world.name == "uav" ? "fly it:" : "try it:", ProgramName(), folder.string());
   }
   return status == 0 ? 0 : 1;
 }
@@ -115,7 +116,7 @@ int TrainAnew(const TrainOptions& options) {
   if (options.format == "text") {
     Announce(experiment, folder);
   }
-  return Train(run, folder, options);
+  return Train(run, experiment.world().description(), folder, options);
 }
 
 int GoOn(const TrainOptions& options) {
@@ -129,7 +130,7 @@ int GoOn(const TrainOptions& options) {
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
-  return Train(run, options.resume, options);
+  return Train(run, resumption.experiment.world().description(), options.resume, options);
 }
 
 }  // namespace

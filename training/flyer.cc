@@ -21,11 +21,9 @@ int AllowedAction(const std::vector<uint8_t>& mask, uint32_t number) {
 
 }  // namespace
 
-Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
-    : world_(&world),
-      network_input_(world, experiment.network_input_options()),
+Flyer::Flyer(const Experiment& experiment, int capacity)
+    : experiment_(experiment),
       mlp_(experiment.network_shape()),
-      mask_options_(experiment.mask_options()),
       double_dqn_(experiment.agent().double_dqn()),
       discount_(static_cast<float>(experiment.agent().discount())),
       excursion_share_(experiment.schedule().excursion_share()),
@@ -33,13 +31,13 @@ Flyer::Flyer(const World& world, const Experiment& experiment, int capacity)
       current_workspace_(mlp_.shape(), capacity),
       target_workspace_(mlp_.shape(), capacity) {}
 
-int64_t Flyer::BytesFor(const World& world, const Experiment& experiment, int capacity, int64_t flights) {
+int64_t Flyer::BytesFor(const Experiment& experiment, int capacity, int64_t flights) {
   constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
+  const World& world = experiment.world();
   const MlpShape shape = experiment.network_shape();
   const int64_t of_flight =
       static_cast<int64_t>(sizeof(Flight)) + HeapBytes(world.actions()) + kGrowth * LongestResultBytes(world);
-  return NetworkInput::BytesFor(world, experiment.network_input_options()) +
-         2 * MlpWorkspace::BytesFor(shape, capacity, false) + flights * of_flight;
+  return 2 * MlpWorkspace::BytesFor(shape, capacity, false) + flights * of_flight;
 }
 
 bool Flyer::IsFlying(int64_t order_index) const {
@@ -57,8 +55,15 @@ std::vector<int64_t> Flyer::OrderIndices() const {
 
 void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
   FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
-  flights_.push_back(std::make_unique<Flight>(
-      Flight{order, std::move(current), std::move(target), EpisodeRecorder(*world_, mask_options_)}));
+  auto flight = std::make_unique<Flight>(Flight{order, std::move(current), std::move(target), nullptr});
+  if (idle_recorders_.empty()) {
+    flight->recorder = std::make_unique<EpisodeRecorder>(experiment_.world(), order.seed);
+  } else {
+    flight->recorder = std::move(idle_recorders_.back());
+    idle_recorders_.pop_back();
+    flight->recorder->Begin(order.seed);
+  }
+  flights_.push_back(std::move(flight));
 }
 
 void Flyer::Step(const std::function<void(const Order&, OrderResult&)>& finished) {
@@ -78,10 +83,12 @@ void Flyer::Step(const std::function<void(const Order&, OrderResult&)>& finished
     StepGroup(group_);
   }
   std::erase_if(flights_, [&](const auto& flight) {
-    if (flight->recorder.episode().outcome == Outcome::kFlying) {
+    if (!flight->done) {
       return false;
     }
-    OrderResult result{flight->order.index, 0, flight->recorder.Release(), std::move(flight->td_errors)};
+    OrderResult result{flight->order.index,         flight->order.seed,          0, 0,
+                       flight->recorder->Release(), std::move(flight->td_errors)};
+    idle_recorders_.push_back(std::move(flight->recorder));
     finished(flight->order, result);
     return true;
   });
@@ -91,9 +98,9 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
   const int batch = static_cast<int>(group.size());
   const auto forward = [&](const SharedParameters& parameters, MlpWorkspace& workspace) {
     for (int column = 0; column < batch; ++column) {
-      network_input_.Write(
-          group[static_cast<size_t>(column)]->recorder.environment().state(),
-          {workspace.input().col(column).data(), static_cast<size_t>(network_input_.size())});
+      experiment_.world().Observe(group[static_cast<size_t>(column)]->recorder->state(),
+                                  {workspace.input().col(column).data(),
+                                   static_cast<size_t>(experiment_.world().observation_size())});
     }
     mlp_.Forward({parameters->data(), static_cast<size_t>(parameters->size())}, batch, workspace);
   };
@@ -102,38 +109,44 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
   for (int column = 0; column < batch; ++column) {
     Flight& flight = *group[static_cast<size_t>(column)];
     FinishLastTransition(flight, column);
+    if (flight.recorder->ended()) {  // it was cut off, so the value of its last state counted
+      flight.done = true;
+      continue;
+    }
     const int action = ChooseAction(flight, column);
     Act(flight, action, current_workspace_.output()(action, column));
   }
 }
 
 void Flyer::FinishLastTransition(Flight& flight, int column) {
-  const std::vector<float>& rewards = flight.recorder.episode().rewards;
+  const std::vector<float>& rewards = flight.recorder->episode().rewards;
   if (rewards.empty()) {
     return;
   }
   const Matrix& target_values = target_workspace_.output();
   const Matrix& choosing = double_dqn_ ? current_workspace_.output() : target_values;
-  const float next_value = target_values(GreedyAction(choosing, column, flight.recorder.mask()), column);
+  const float next_value = target_values(GreedyAction(choosing, column, flight.recorder->mask()), column);
   flight.td_errors.back() = rewards.back() + discount_ * next_value - flight.chosen_value;
 }
 
 int Flyer::ChooseAction(Flight& flight, int column) const {
   const std::optional<int> exploring = Explore(flight, column);
-  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.recorder.mask());
+  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.recorder->mask());
 }
 
-/// Returns a random action, or one of an excursion: a straight flight to a random cell, scheduling greedily.
-/// An excursion ends there, or earlier if the mask forbids its next move. Returns nothing if the flight shall
-/// act greedily.
+/// Returns a random action, or one of an excursion: a straight way to a random place, with the best of the
+/// actions that lead there. An excursion ends there, or earlier if the mask forbids these actions. Returns
+/// nothing if the flight shall act greedily.
 std::optional<int> Flyer::Explore(Flight& flight, int column) const {
-  const State& state = flight.recorder.environment().state();
-  const std::vector<uint8_t>& mask = flight.recorder.mask();
-  RandomStream stream(flight.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(state.slot), 0);
-  if (flight.waypoint == state.cell) {
-    flight.waypoint.reset();
+  const World& world = experiment_.world();
+  const std::span<const float> state = flight.recorder->state();
+  const std::vector<uint8_t>& mask = flight.recorder->mask();
+  const auto slot = static_cast<uint32_t>(flight.recorder->episode().transitions() + 1);
+  RandomStream stream(flight.order.seed, RandomPurpose::kActing, slot, 0);
+  if (flight.place && world.IsAt(state, *flight.place)) {
+    flight.place.reset();
   }
-  if (!flight.waypoint) {
+  if (!flight.place) {
     if (stream.NextUniform() >= flight.order.epsilon) {
       return std::nullopt;
     }
@@ -141,34 +154,30 @@ std::optional<int> Flyer::Explore(Flight& flight, int column) const {
       const auto allowed = static_cast<uint32_t>(std::count(mask.begin(), mask.end(), 1));
       return AllowedAction(mask, stream.NextBelow(allowed));
     }
-    flight.waypoint = RandomCell(stream);
+    flight.place = world.DrawPlace(stream);
   }
-  const int first = world_->ActionIndex({MoveTowards(state.cell, *flight.waypoint), 0});
+  const ActionRange range = world.Towards(state, *flight.place);
   const std::optional<int> action =
-      BestAllowedAction(current_workspace_.output(), column, mask, first, first + world_->sensors() + 1);
+      BestAllowedAction(current_workspace_.output(), column, mask, range.first, range.end);
   if (!action) {
-    flight.waypoint.reset();
+    flight.place.reset();
   }
   return action;
 }
 
-Cell Flyer::RandomCell(RandomStream& stream) const {
-  const int column = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(world_->scenario().columns)));
-  const int row = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(world_->scenario().rows)));
-  return {column, row};
-}
-
 void Flyer::Act(Flight& flight, int action, float value) {
-  flight.recorder.Step(action);
+  flight.recorder->Step(action);
   flight.chosen_value = value;
-  // Final if the episode ends here; otherwise FinishLastTransition replaces it.
-  flight.td_errors.push_back(flight.recorder.episode().rewards.back() - value);
+  // Final if this state is terminal; otherwise FinishLastTransition replaces it.
+  flight.td_errors.push_back(flight.recorder->episode().rewards.back() - value);
+  flight.done = flight.recorder->episode().ending == Ending::kTerminal;
 }
 
-Episode FlyGreedily(const World& world, const Experiment& experiment, SharedParameters parameters) {
-  Flyer flyer(world, experiment, 1);
+Episode FlyGreedily(const Experiment& experiment, uint64_t seed, SharedParameters parameters) {
+  Flyer flyer(experiment, 1);
   Order order;
   order.kind = OrderKind::kEvaluate;
+  order.seed = seed;
   flyer.Start(order, parameters, parameters);
   Episode flown;
   while (!flyer.Idle()) {

@@ -14,8 +14,7 @@
 #include "msgs/order.h"
 #include "nn/mlp.h"
 #include "training/dqn.h"
-#include "worlds/uav/episode.h"
-#include "worlds/uav/network_input.h"
+#include "worlds/episode.h"
 
 namespace fresco {
 
@@ -24,12 +23,12 @@ using SharedParameters = std::shared_ptr<const Vector>;
 
 class Flyer {
  public:
-  /// Up to `capacity` environments at a time. `world` must outlive the flyer.
-  Flyer(const World& world, const Experiment& experiment, int capacity);
+  /// Up to `capacity` environments at a time.
+  Flyer(const Experiment& experiment, int capacity);
 
   /// What it takes of memory beside the object itself and the networks, with so many flights at a time at
   /// most.
-  static int64_t BytesFor(const World& world, const Experiment& experiment, int capacity, int64_t flights);
+  static int64_t BytesFor(const Experiment& experiment, int capacity, int64_t flights);
 
   bool HasRoom() const { return flights_.size() < static_cast<size_t>(capacity_); }
   bool Idle() const { return flights_.empty(); }
@@ -40,7 +39,7 @@ class Flyer {
   /// Begins the flight of an order with the parameters of its two versions. CHECKs that there is room.
   void Start(const Order& order, SharedParameters current, SharedParameters target);
 
-  /// Flies one slot of every open order. Calls `finished` with the order and the result of each episode that
+  /// Takes one step of every open order. Calls `finished` with the order and the result of each episode that
   /// ends; it may move from the result.
   void Step(const std::function<void(const Order&, OrderResult&)>& finished);
 
@@ -49,10 +48,11 @@ class Flyer {
     Order order;
     SharedParameters current;
     SharedParameters target;
-    EpisodeRecorder recorder;
+    std::unique_ptr<EpisodeRecorder> recorder;
     std::vector<float> td_errors = {};  // by transition
     float chosen_value = 0;             // Q(s, a) of the last transition
-    std::optional<Cell> waypoint = {};  // of an excursion
+    std::optional<int> place = {};      // that an excursion leads to
+    bool done = false;                  // the episode has ended and its last error is known
   };
 
   void StepGroup(std::vector<Flight*>& group);
@@ -60,23 +60,22 @@ class Flyer {
   int ChooseAction(Flight& flight, int column) const;
   std::optional<int> Explore(Flight& flight, int column) const;
   void Act(Flight& flight, int action, float value);
-  Cell RandomCell(RandomStream& stream) const;
 
-  const World* world_;
-  NetworkInput network_input_;
+  Experiment experiment_;
   Mlp mlp_;
-  MaskOptions mask_options_;
   bool double_dqn_;
   float discount_;
   double excursion_share_;
   int capacity_;
   MlpWorkspace current_workspace_;
   MlpWorkspace target_workspace_;
+  std::vector<std::unique_ptr<EpisodeRecorder>>
+      idle_recorders_;  // with the environments of flights that ended
   std::vector<std::unique_ptr<Flight>> flights_;
   std::vector<Flight*> group_;
 };
 
-/// One greedy episode with a network: what `fresco evaluate` flies. Masks as the experiment says.
-Episode FlyGreedily(const World& world, const Experiment& experiment, SharedParameters parameters);
+/// One greedy episode with a network: what `fresco evaluate` flies.
+Episode FlyGreedily(const Experiment& experiment, uint64_t seed, SharedParameters parameters);
 
 }  // namespace fresco

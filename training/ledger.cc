@@ -1,18 +1,12 @@
 #include "training/ledger.h"
 
-#include <algorithm>
-#include <span>
 #include <utility>
 
 #include "core/error.h"
-#include "core/memory.h"
 
 namespace fresco {
-
 int64_t Ledger::BytesFor(const World& world, int64_t orders) {
-  const int64_t actions = world.maximum_transitions() * static_cast<int64_t>(sizeof(int16_t));
-  const auto of_entry = static_cast<int64_t>(sizeof(Entry)) + LongestEpisodeBytes(world) + HeapBytes(actions);
-  return orders * of_entry;
+  return orders * (static_cast<int64_t>(sizeof(Entry)) + EpisodeAssembly::BytesFor(world));
 }
 
 void Ledger::Write(const Order& order) {
@@ -31,50 +25,35 @@ Ledger::Arrival Ledger::Add(const OrderResult& part) {
     return Arrival::kUnknownOrder;
   }
   Entry& entry = entries_[static_cast<size_t>(part.order_index - committed_)];
-  if (entry.episode || !Keep(part, entry)) {
+  if (entry.episode) {
     return Arrival::kDuplicate;
   }
-  if (entry.kept > 2 * world_->maximum_transitions()) {  // no actor sends so many that overlap
-    entry = {.order = entry.order};
-    return Arrival::kInconsistent;
+  if (!entry.parts) {
+    entry.parts.emplace(*world_);
   }
-  if (entry.length == 0 || entry.arrived < entry.length) {
+  const auto arrival =
+      part.seed == entry.order.seed ? entry.parts->Add(part) : EpisodeAssembly::Arrival::kContradiction;
+  if (arrival == EpisodeAssembly::Arrival::kNothingNew) {
+    return Arrival::kDuplicate;
+  }
+  if (arrival == EpisodeAssembly::Arrival::kNew && !entry.parts->complete()) {
     return Arrival::kAccepted;
   }
-  entry = {.order = entry.order, .episode = FlyAgain(entry)};
+  if (arrival == EpisodeAssembly::Arrival::kNew && Follows(entry.order, entry.parts->episode())) {
+    entry.episode = entry.parts->episode();
+    entry.episode->seed = entry.order.seed;
+  }
+  entry.parts.reset();
   return entry.episode ? Arrival::kCompleted : Arrival::kInconsistent;
 }
 
-/// Keeps the part if it has a transition that has not arrived before. Returns whether it does.
-bool Ledger::Keep(const OrderResult& part, Entry& entry) const {
-  entry.actions.resize(static_cast<size_t>(world_->maximum_transitions()), kNotHere);
-  const int arrived_before = entry.arrived;
-  auto action = entry.actions.begin() + part.first_transition;
-  for (const int16_t flown : part.episode.actions) {
-    entry.arrived += *action == kNotHere ? 1 : 0;
-    *action++ = flown;
+/// Whether the complete episode follows from its actions. Where that can't be known, believes the actor.
+bool Ledger::Follows(const Order& order, const Episode& episode) const {
+  if (!world_->description().repeatable) {
+    return true;
   }
-  if (entry.arrived == arrived_before) {
-    return false;
-  }
-  if (part.episode.outcome != Outcome::kFlying) {
-    entry.length = part.first_transition + part.episode.transitions();
-  }
-  entry.kept += part.episode.transitions();
-  entry.parts.push_back(part);
-  return true;
-}
-
-/// Flies the actions that have arrived. Returns none if a part differs from this flight.
-std::optional<Episode> Ledger::FlyAgain(const Entry& entry) const {
   Episode flown;
-  const std::span actions(entry.actions.data(), static_cast<size_t>(entry.length));
-  const bool follows = FlyActions(*world_, mask_options_, actions, flown) &&
-                       flown.transitions() == entry.length &&
-                       std::all_of(entry.parts.begin(), entry.parts.end(), [&](const OrderResult& part) {
-                         return IsPartOf(part.episode, part.first_transition, flown);
-                       });
-  return follows ? std::optional(std::move(flown)) : std::nullopt;
+  return FlyActions(*world_, order.seed, episode.actions, flown) && SameBits(flown, episode);
 }
 
 std::optional<CommittedEpisode> Ledger::TakeNext() {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "msgs/order.h"
+#include "training/episode_assembly.h"
+#include "worlds/world.h"
 
 namespace fresco {
 
@@ -21,7 +23,7 @@ struct CommittedEpisode {
 class Ledger {
  public:
   /// `world` must outlive the ledger.
-  Ledger(const World& world, MaskOptions mask_options) : world_(&world), mask_options_(mask_options) {}
+  explicit Ledger(const World& world) : world_(&world) {}
 
   /// The memory of so many orders in flight with their episodes, bytes.
   static int64_t BytesFor(const World& world, int64_t orders);
@@ -34,12 +36,12 @@ class Ledger {
     kCompleted,     ///< the order's last missing transitions
     kDuplicate,     ///< nothing new, or an order that is done
     kUnknownOrder,  ///< an order that was never written
-    kInconsistent,  ///< does not follow from its actions in this world; all parts of the result are dropped
+    kInconsistent,  ///< contradicts another part, the order or the world; all that has arrived is dropped
   };
 
-  /// Keeps a part of a result that FromWire accepted. When an order's last transition has arrived, the
-  /// ledger flies the episode again from its actions. If every part agrees with this flight, TakeNext returns
-  /// the flight; otherwise all parts are dropped.
+  /// Keeps a part of a result that FromWire accepted. When an order's last part has arrived, the episode is
+  /// complete. If the world is repeatable, the ledger then flies it again from its actions, and drops it if
+  /// that gives other bits.
   Arrival Add(const OrderResult& part);
 
   /// Removes the order with the lowest index and returns it with its episode; nullopt if that is not
@@ -58,21 +60,14 @@ class Ledger {
   /// An order in flight, and what of its result has arrived.
   struct Entry {
     Order order;
-    std::vector<OrderResult> parts = {};  // as they came; none once the episode is complete
-    std::vector<int16_t> actions = {};    // by transition; kNotHere if it has not arrived
-    int arrived = 0;                      // transitions
-    int kept = 0;                         // transitions of all parts; more if these overlap
-    int length = 0;                       // of the episode; 0 before the part that ends it has arrived
-    std::optional<Episode> episode = {};  // once it is complete: flown again from its actions
+    std::optional<EpisodeAssembly> parts = {};  // from the first one to the last
+    std::optional<Episode> episode = {};        // once it is complete
   };
-  static constexpr int16_t kNotHere = -1;
 
   const Entry& entry(int64_t index) const { return entries_[static_cast<size_t>(index - committed_)]; }
-  bool Keep(const OrderResult& part, Entry& entry) const;
-  std::optional<Episode> FlyAgain(const Entry& entry) const;
+  bool Follows(const Order& order, const Episode& episode) const;
 
   const World* world_;
-  MaskOptions mask_options_;
   bool begun_ = false;
   int64_t committed_ = 0;
   std::deque<Entry> entries_;

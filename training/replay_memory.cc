@@ -84,29 +84,19 @@ void ReplayMemory::Copy(int64_t index, int column, MiniBatch& batch) const {
   }
 }
 
-ActionHistory::ActionHistory(int64_t capacity, int longest_episode)
-    : capacity_(capacity), ring_(static_cast<size_t>(capacity + longest_episode)) {}
-
-void ActionHistory::Add(int16_t action, bool last) {
-  ring_[static_cast<size_t>(added_ % static_cast<int64_t>(ring_.size()))] = {action, last};
-  ++added_;
+int64_t EpisodeHistory::BytesFor(const World& world, int64_t capacity) {
+  const int64_t longest = LongestEpisodeBytes(world);
+  const int64_t of_transition = longest / world.longest_episode() + 1;
+  return capacity * of_transition + longest;
 }
 
-const ActionHistory::Entry& ActionHistory::Latest(int64_t age) const {
-  return ring_[static_cast<size_t>((added_ - 1 - age) % static_cast<int64_t>(ring_.size()))];
-}
-
-std::vector<int16_t> ActionHistory::Actions() const {
-  int64_t count = std::min(added_, capacity_);
-  // Go back to the beginning of the episode: the transition before it ended the previous episode.
-  while (count > 0 && count < added_ && !Latest(count).last) {
-    ++count;
+void EpisodeHistory::Add(std::shared_ptr<const Episode> episode) {
+  transitions_ += episode->transitions();
+  episodes_.push_back(std::move(episode));
+  while (transitions_ - episodes_.front()->transitions() >= capacity_) {
+    transitions_ -= episodes_.front()->transitions();
+    episodes_.pop_front();
   }
-  std::vector<int16_t> actions(static_cast<size_t>(count));
-  for (int64_t age = 0; age < count; ++age) {
-    actions[static_cast<size_t>(count - 1 - age)] = Latest(age).action;
-  }
-  return actions;
 }
 
 }  // namespace fresco

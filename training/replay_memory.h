@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/random.h"
 #include "nn/mlp.h"
+#include "worlds/episode.h"
 
 namespace fresco {
 
@@ -87,38 +90,30 @@ class ReplayMemory {
   std::vector<uint8_t> masks_;
 };
 
-/// Remembers the actions of the latest transitions. A checkpoint stores these instead of the replay memory:
-/// the world is deterministic, so everything else follows from the actions. Only the constructor and Actions
-/// allocate.
-class ActionHistory {
+/// Keeps the episodes of the latest transitions. A checkpoint stores these instead of the replay memory,
+/// which holds only what the network sees.
+class EpisodeHistory {
  public:
-  /// `capacity` (>= 1): transitions in the replay memory. `longest_episode` (>= 1): the most transitions that
-  /// an episode can have.
-  ActionHistory(int64_t capacity, int longest_episode);
+  /// `capacity` (>= 1): transitions in the replay memory.
+  explicit EpisodeHistory(int64_t capacity) : capacity_(capacity) {}
 
-  /// The memory of an object, bytes.
-  static int64_t BytesFor(int64_t capacity, int longest_episode) {
-    return (capacity + longest_episode) * static_cast<int64_t>(sizeof(Entry));
+  /// The memory of an object that is full of the longest episodes, bytes. Short ones take some more for each
+  /// transition.
+  static int64_t BytesFor(const World& world, int64_t capacity);
+
+  /// Adds the next complete episode, and forgets the oldest ones that the latest `capacity` transitions do
+  /// not need.
+  void Add(std::shared_ptr<const Episode> episode);
+
+  /// Oldest first.
+  std::vector<std::shared_ptr<const Episode>> episodes() const {
+    return {episodes_.begin(), episodes_.end()};
   }
 
-  /// Adds the action of the next transition; `last` says whether it ends its episode.
-  void Add(int16_t action, bool last);
-
-  /// Returns the actions of complete episodes, oldest first, so that they contain the latest `capacity`
-  /// transitions (or all, if there were fewer). The first episode may begin before these. The transition
-  /// added last must have ended its episode.
-  std::vector<int16_t> Actions() const;
-
  private:
-  struct Entry {
-    int16_t action = 0;
-    bool last = false;
-  };
-  const Entry& Latest(int64_t age) const;  // age 0 is the latest, age 1 the one before it
-
   int64_t capacity_;
-  std::vector<Entry> ring_;
-  int64_t added_ = 0;
+  int64_t transitions_ = 0;  // of all episodes kept
+  std::deque<std::shared_ptr<const Episode>> episodes_;
 };
 
 }  // namespace fresco

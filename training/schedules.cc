@@ -19,14 +19,21 @@ double IntegerPower(double base, int64_t exponent) {
   return power;
 }
 
+uint64_t SeedOf(uint64_t seed, RandomPurpose purpose, int64_t number) {
+  const auto index = static_cast<uint64_t>(number);
+  RandomStream stream(seed, purpose, static_cast<uint32_t>(index), static_cast<uint32_t>(index >> 32));
+  const uint64_t high = stream.NextWord();
+  return high << 32 | stream.NextWord();
+}
+
 }  // namespace
 
 uint64_t EpisodeSeed(uint64_t seed, int64_t episode) {
-  const auto number = static_cast<uint64_t>(episode);
-  RandomStream stream(seed, RandomPurpose::kEpisodeSeed, static_cast<uint32_t>(number),
-                      static_cast<uint32_t>(number >> 32));
-  const uint64_t high = stream.NextWord();
-  return high << 32 | stream.NextWord();
+  return SeedOf(seed, RandomPurpose::kEpisodeSeed, episode);
+}
+
+uint64_t EvaluationSeed(uint64_t seed, int64_t episode) {
+  return SeedOf(seed, RandomPurpose::kEvaluationSeed, episode);
 }
 
 double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t transitions) {

@@ -12,6 +12,8 @@ namespace fresco {
 /// among the training episodes, 0, 1, .. Evaluations are not counted, so they have no influence on the
 /// training.
 uint64_t EpisodeSeed(uint64_t seed, int64_t episode);
+/// The same for evaluation episodes, which are counted for themselves.
+uint64_t EvaluationSeed(uint64_t seed, int64_t episode);
 
 /// The epsilon, 0 .. 1, of training episode number `episode` (0, 1, ..), if its order is written when
 /// `transitions` transitions are committed.

@@ -1,6 +1,7 @@
 #include "training/trainer.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -24,21 +25,21 @@ void Average(double value, double& average) {
 
 }  // namespace
 
-Trainer::Trainer(const Experiment& experiment, const World& world, TrainerOutput output)
+Trainer::Trainer(const Experiment& experiment, TrainerOutput output)
     : experiment_(experiment),
-      world_(&world),
       output_(std::move(output)),
-      expected_updates_(ExpectedUpdates(experiment.schedule(), world.maximum_transitions())),
-      network_input_(world, experiment.network_input_options()),
-      replay_(network_input_.size(), world.actions(), experiment.agent().replay_capacity()),
-      history_(experiment.agent().replay_capacity(), world.maximum_transitions()),
-      batch_(network_input_.size(), world.actions(), experiment.agent().batch_size()),
+      expected_updates_(ExpectedUpdates(experiment.schedule(), experiment.world().longest_episode())),
+      replay_(experiment.world().observation_size(), experiment.world().actions(),
+              experiment.agent().replay_capacity()),
+      history_(experiment.agent().replay_capacity()),
+      batch_(experiment.world().observation_size(), experiment.world().actions(),
+             experiment.agent().batch_size()),
       dqn_(experiment.network_shape(),
            InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
            OptionsOf(experiment.agent())),
-      observation_(static_cast<size_t>(network_input_.size())),
-      next_observation_(static_cast<size_t>(network_input_.size())),
-      least_values_(static_cast<size_t>(world.maximum_transitions())) {}
+      observation_(static_cast<size_t>(experiment.world().observation_size())),
+      next_observation_(observation_.size()),
+      least_values_(static_cast<size_t>(experiment.world().longest_episode())) {}
 
 void Trainer::Begin() {
   Offer({NetworkKind::kCurrent, 0}, dqn_.current());
@@ -62,10 +63,10 @@ void Trainer::Commit(const Order& order, const Episode& episode) {
   ForgetVersions();
 }
 
-/// Computes the return that the episode earned from each transition on. The world is deterministic, so this
-/// return is a lower bound of Q* (as in He et al., "Learning to play in a day", 2017).
+/// Computes the return that the episode earned from each transition on. In a world without chance this is a
+/// lower bound of Q* (as in He et al., "Learning to play in a day", 2017), unless the episode was cut off.
 void Trainer::ComputeLeastValues(const Episode& episode) {
-  if (!experiment_.agent().flown_return_bound()) {
+  if (!experiment_.agent().flown_return_bound() || episode.ending == Ending::kTruncated) {
     std::fill(least_values_.begin(), least_values_.end(), -std::numeric_limits<float>::infinity());
     return;
   }
@@ -84,7 +85,6 @@ void Trainer::CommitTraining(const Episode& episode) {
   ComputeLeastValues(episode);
   for (int transition = 0; transition < episode.transitions(); ++transition) {
     Insert(episode, transition);
-    history_.Add(episode.actions[static_cast<size_t>(transition)], transition + 1 == episode.transitions());
     ++progress_.transitions;
     progress_.replay_size = replay_.size();
     if (progress_.transitions >= experiment_.schedule().minimum_replay_size() &&
@@ -92,6 +92,7 @@ void Trainer::CommitTraining(const Episode& episode) {
       UpdateOnce();
     }
   }
+  history_.Add(std::make_shared<const Episode>(episode));  // a copy: without the room of vectors that grew
   ++progress_.episodes;
   if (AllEpisodesCommitted()) {
     WriteFinalEvaluation();
@@ -110,11 +111,11 @@ int64_t Trainer::EvaluationsDue() const {
 
 void Trainer::Insert(const Episode& episode, int transition) {
   const auto i = static_cast<size_t>(transition);
-  network_input_.Write(episode.states[i], observation_);
-  network_input_.Write(episode.states[i + 1], next_observation_);
-  const auto mask_size = static_cast<size_t>(MaskSize(*world_));
-  const bool last = transition + 1 == episode.transitions();
-  replay_.Insert({observation_, next_observation_, episode.actions[i], episode.rewards[i], last,
+  experiment_.world().Observe(episode.state(i), observation_);
+  experiment_.world().Observe(episode.state(i + 1), next_observation_);
+  const auto mask_size = static_cast<size_t>(MaskSize(experiment_.world().actions()));
+  const bool terminal = transition + 1 == episode.transitions() && episode.ending == Ending::kTerminal;
+  replay_.Insert({observation_, next_observation_, episode.actions[i], episode.rewards[i], terminal,
                   std::span(episode.next_masks).subspan(i * mask_size, mask_size), least_values_[i]});
 }
 
@@ -185,10 +186,15 @@ void Trainer::WriteTrainingOrder() {
   }
 }
 
+/// Writes the orders of one evaluation. Each has a seed of its own.
 void Trainer::WriteEvaluation() {
-  Order order;
-  order.kind = OrderKind::kEvaluate;
-  WriteOrder(order);
+  const proto::Schedule& schedule = experiment_.schedule();
+  for (int i = 0; i < schedule.evaluation_episodes(); ++i) {
+    Order order;
+    order.kind = OrderKind::kEvaluate;
+    order.seed = EvaluationSeed(schedule.seed(), evaluation_orders_++);
+    WriteOrder(order);
+  }
 }
 
 /// Gives the order its index and the newest versions, and hands it out.
@@ -200,18 +206,56 @@ void Trainer::WriteOrder(Order order) {
   output_.order(order);
 }
 
+/// Adds one episode to its evaluation. The episodes of an evaluation are committed one after the other.
 void Trainer::CommitEvaluation(const Order& order, const Episode& episode) {
+  std::vector<double> figures(experiment_.world().description().figures.size());
+  experiment_.world().Judge(episode, figures);
+  PartialEvaluation& partial = partial_evaluation_;
+  partial.figures.resize(figures.size());
+  std::transform(figures.begin(), figures.end(), partial.figures.begin(), partial.figures.begin(),
+                 std::plus<>());
+  partial.successes += experiment_.world().Succeeded(episode) ? 1 : 0;
+  if (++partial.episodes == experiment_.schedule().evaluation_episodes()) {
+    CompleteEvaluation(order);
+  }
+}
+
+void Trainer::CompleteEvaluation(const Order& order) {
   const VersionState& version = versions_.at({NetworkKind::kCurrent, order.current_version});
-  const Evaluation evaluation{order.current_version, version.updates, progress_.episodes, episode.arrived(),
-                              Figures(*world_, episode)};
-  const auto better = [](const Evaluation& a, const Evaluation& b) {
-    return a.arrived != b.arrived ? a.arrived : a.arrived && a.figures.average_aoi < b.figures.average_aoi;
-  };
-  if (!best_ || better(evaluation, best_->evaluation) || !best_->evaluation.arrived) {
+  PartialEvaluation partial = std::exchange(partial_evaluation_, {});
+  for (double& figure : partial.figures) {
+    figure /= partial.episodes;
+  }
+  const Evaluation evaluation{order.current_version, version.updates, progress_.episodes,
+                              static_cast<double>(partial.successes) / partial.episodes, partial.figures};
+  if (progress_.delivering) {
+    delivered_ = evaluation;
+    return;
+  }
+  if (!best_ || best_->evaluation.success == 0 || IsBetter(evaluation, best_->evaluation)) {
     best_ = {evaluation, version.parameters};
   }
   last_evaluation_ = evaluation;
   output_.evaluation(evaluation);
+  if (AllEpisodesCommitted() && orders_.empty() && experiment_.world().description().random) {
+    DeliverBest();
+  }
+}
+
+bool Trainer::IsBetter(const Evaluation& a, const Evaluation& b) const {
+  const bool less_is_better = experiment_.world().description().less_is_better;
+  return a.success != b.success ? a.success > b.success
+                                : (less_is_better ? a.score() < b.score() : a.score() > b.score());
+}
+
+/// Where chance decides, the best evaluation was lucky, too. So the best version becomes the newest one and
+/// is judged once more.
+void Trainer::DeliverBest() {
+  progress_.delivering = true;
+  const NetworkVersion version{NetworkKind::kCurrent, ++progress_.current_version};
+  versions_[version] = {version, best_->evaluation.updates, best_->parameters};
+  output_.version(version, best_->parameters);
+  WriteEvaluation();
 }
 
 }  // namespace fresco

@@ -16,7 +16,6 @@
 #include "training/dqn.h"
 #include "training/replay_memory.h"
 #include "training/training_state.h"
-#include "worlds/uav/network_input.h"
 
 namespace fresco {
 
@@ -35,8 +34,7 @@ struct TrainerOutput {
 
 class Trainer {
  public:
-  /// `world` must outlive the trainer.
-  Trainer(const Experiment& experiment, const World& world, TrainerOutput output);
+  Trainer(const Experiment& experiment, TrainerOutput output);
 
   /// Starts a new training: hands out version 0 of both networks and the first orders. Call either Begin or
   /// Resume, and only once.
@@ -46,7 +44,7 @@ class Trainer {
   /// contradicts the experiment; the trainer can't be used after that.
   void Resume(const TrainingState& state);
 
-  /// Returns the state from which Resume can continue. Copies four parameter vectors and the actions.
+  /// Returns the state from which Resume can continue. Copies four parameter vectors; shares the rest.
   TrainingState Save() const;
 
   /// Commits the episode of `order`: inserts its transitions and makes the updates that are due. CHECKs that
@@ -61,10 +59,15 @@ class Trainer {
   const Vector& current() const { return dqn_.current(); }
   const std::optional<BestNetwork>& best() const { return best_; }
   const std::optional<Evaluation>& last_evaluation() const { return last_evaluation_; }
+  /// The score of the best version by episodes that did not choose it. None before the end, and in a world
+  /// without chance, where best() has the exact score.
+  const std::optional<Evaluation>& delivered() const { return delivered_; }
 
  private:
   void CommitTraining(const Episode& episode);
   void CommitEvaluation(const Order& order, const Episode& episode);
+  void CompleteEvaluation(const Order& order);
+  bool IsBetter(const Evaluation& a, const Evaluation& b) const;
   void ComputeLeastValues(const Episode& episode);
   void Insert(const Episode& episode, int transition);
   void UpdateOnce();
@@ -75,21 +78,22 @@ class Trainer {
   void CheckState(const TrainingState& state) const;
   void CheckProgress(const TrainingState& state) const;
   void CheckOrders(const TrainingState& state) const;
+  void CheckEvaluations(const TrainingState& state) const;
+  bool Fits(const Episode& episode) const;
   void RefillReplay(const TrainingState& state);
   bool AllEpisodesCommitted() const { return progress_.episodes == experiment_.schedule().episodes(); }
   int64_t EvaluationsDue() const;
   void WriteFinalEvaluation();
+  void DeliverBest();
   void WriteTrainingOrder();
   void WriteEvaluation();
   void WriteOrder(Order order);
 
   Experiment experiment_;
-  const World* world_;
   TrainerOutput output_;
   int64_t expected_updates_;
-  NetworkInput network_input_;
   ReplayMemory replay_;
-  ActionHistory history_;  // the actions of the transitions in the replay memory
+  EpisodeHistory history_;  // the episodes whose transitions are in the replay memory
   MiniBatch batch_;
   Dqn dqn_;
   std::vector<float> observation_;
@@ -97,11 +101,14 @@ class Trainer {
   std::vector<float> least_values_;  // lower bounds of Q*, by transition of the episode
   TrainerProgress progress_;
   int64_t training_orders_ = 0;       // training orders written so far
+  int64_t evaluation_orders_ = 0;     // evaluation orders written so far
   std::deque<OrderInFlight> orders_;  // sorted by index, from progress_.committed_orders on
   std::map<NetworkVersion, VersionState>
       versions_;  // those that orders_ name, and the newest of each network
+  PartialEvaluation partial_evaluation_;
   std::optional<Evaluation> last_evaluation_;
   std::optional<BestNetwork> best_;
+  std::optional<Evaluation> delivered_;
 };
 
 }  // namespace fresco

@@ -28,9 +28,11 @@ TrainingState Trainer::Save() const {
   state.current = dqn_.current();
   state.target = dqn_.target();
   state.adam = dqn_.adam();
-  state.actions = history_.Actions();
+  state.replay = history_.episodes();
+  state.partial_evaluation = partial_evaluation_;
   state.last_evaluation = last_evaluation_;
   state.best = best_;
+  state.delivered = delivered_;
   return state;
 }
 
@@ -38,6 +40,9 @@ void Trainer::Resume(const TrainingState& state) {
   CheckState(state);
   progress_ = state.progress;
   training_orders_ = state.progress.episodes;
+  evaluation_orders_ = state.progress.committed_orders - state.progress.episodes;
+  partial_evaluation_ = state.partial_evaluation;
+  delivered_ = state.delivered;
   last_evaluation_ = state.last_evaluation;
   best_ = state.best;
   dqn_.Restore(state.current, state.target, state.adam);
@@ -48,7 +53,7 @@ void Trainer::Resume(const TrainingState& state) {
   }
   for (const OrderInFlight& order : state.orders) {
     orders_.push_back(order);
-    training_orders_ += order.order.kind == OrderKind::kTrain ? 1 : 0;
+    ++(order.order.kind == OrderKind::kTrain ? training_orders_ : evaluation_orders_);
     output_.order(order.order);
   }
 }
@@ -79,6 +84,7 @@ void Trainer::CheckState(const TrainingState& state) const {
   }
   CheckProgress(state);
   CheckOrders(state);
+  CheckEvaluations(state);
 }
 
 /// What holds of every training of this experiment: nothing of it can run over, and no update is missing.
@@ -90,16 +96,16 @@ void Trainer::CheckProgress(const TrainingState& state) const {
          fmt::format("{} episodes of {}, {} orders committed", progress.episodes, schedule.episodes(),
                      progress.committed_orders));
   Expect(progress.episodes <= progress.transitions &&
-             progress.transitions <= progress.episodes * world_->maximum_transitions(),
+             progress.transitions <= progress.episodes * experiment_.world().longest_episode(),
          fmt::format("{} transitions of {} episodes", progress.transitions, progress.episodes));
   Expect(0 <= progress.updates && progress.updates <= progress.transitions / schedule.inserts_per_update() &&
              state.adam.steps == progress.updates,
          fmt::format("{} updates and {} steps of the optimiser after {} transitions", progress.updates,
                      state.adam.steps, progress.transitions));
   const int64_t whole = progress.updates / schedule.updates_per_version();
-  const bool final_version =
-      progress.episodes == schedule.episodes() && progress.current_version == whole + 1;
-  Expect((progress.current_version == whole || final_version) &&
+  // After the last episode there may be a version with fewer updates, and the best one again.
+  const int64_t further = progress.episodes == schedule.episodes() ? 1 + (progress.delivering ? 1 : 0) : 0;
+  Expect(whole <= progress.current_version && progress.current_version <= whole + further &&
              progress.target_version == progress.updates / experiment_.agent().target_update_period(),
          fmt::format("versions {} and {} after {} updates", progress.current_version, progress.target_version,
                      progress.updates));
@@ -124,34 +130,69 @@ void Trainer::CheckOrders(const TrainingState& state) const {
   const proto::Schedule& schedule = experiment_.schedule();
   const int64_t expected = std::min<int64_t>(schedule.window(), schedule.episodes() - progress.episodes);
   const auto evaluations = static_cast<int64_t>(state.orders.size()) - training;
-  Expect(training == expected && evaluations <= schedule.window(),
+  const int64_t most = int64_t{schedule.window()} * schedule.evaluation_episodes();
+  Expect(training == expected && evaluations <= most,
          fmt::format("expected {} training orders and at most {} evaluations in flight, found {} and {}",
-                     expected, schedule.window(), training, evaluations));
+                     expected, most, training, evaluations));
 }
 
-/// Flies the episodes again and inserts every transition at its former index in the ring.
+/// The figures of evaluations: as many as the world has, of at most as many episodes as an evaluation has.
+void Trainer::CheckEvaluations(const TrainingState& state) const {
+  const size_t figures = experiment_.world().description().figures.size();
+  const PartialEvaluation& partial = state.partial_evaluation;
+  Expect(0 <= partial.successes && partial.successes <= partial.episodes &&
+             partial.episodes < experiment_.schedule().evaluation_episodes() &&
+             partial.figures.size() == (partial.episodes > 0 ? figures : 0),
+         fmt::format("an evaluation of {} episodes, {} successes and {} figures", partial.episodes,
+                     partial.successes, partial.figures.size()));
+  for (const Evaluation* evaluation :
+       {state.last_evaluation ? &*state.last_evaluation : nullptr,
+        state.best ? &state.best->evaluation : nullptr, state.delivered ? &*state.delivered : nullptr}) {
+    Expect(evaluation == nullptr || evaluation->figures.size() == figures,
+           fmt::format("an evaluation without the {} figures of this world", figures));
+  }
+  Expect(!state.progress.delivering || state.best, "it delivers a best version, but has none");
+  Expect((!state.progress.delivering && !state.delivered) ||
+             state.progress.episodes == experiment_.schedule().episodes(),
+         "it delivers a best version before the training is over");
+}
+
+/// Whether the episode is complete and has the sizes of this world.
+bool Trainer::Fits(const Episode& episode) const {
+  const World& world = experiment_.world();
+  const size_t transitions = episode.actions.size();
+  return transitions >= 1 && episode.transitions() <= world.longest_episode() &&
+         episode.ending != Ending::kNone &&
+         episode.states.size() == (transitions + 1) * static_cast<size_t>(world.state_size()) &&
+         episode.rewards.size() == transitions &&
+         episode.next_masks.size() == transitions * static_cast<size_t>(MaskSize(world.actions())) &&
+         std::all_of(episode.actions.begin(), episode.actions.end(),
+                     [&](int16_t action) { return action >= 0 && action < world.actions(); });
+}
+
+/// Inserts every transition of the episodes at its former index in the ring.
 void Trainer::RefillReplay(const TrainingState& state) {
-  const auto count = static_cast<int64_t>(state.actions.size());
+  int64_t count = 0;
+  for (const auto& episode : state.replay) {
+    Expect(Fits(*episode), "an episode of its replay memory is not one of this world");
+    count += episode->transitions();
+  }
   const int64_t kept = std::min<int64_t>(state.progress.transitions, experiment_.agent().replay_capacity());
   Expect(state.progress.replay_size == kept && kept <= count && count <= state.progress.transitions,
-         fmt::format("expected the actions of {} transitions in the replay memory, of {} in all; found {}",
-                     kept, state.progress.transitions, count));
+         fmt::format("expected {} transitions in the replay memory, of {} in all; found {}", kept,
+                     state.progress.transitions, count));
   replay_.BeginAt(state.progress.transitions - kept);
-  std::span<const int16_t> left(state.actions);
   int64_t to_skip = count - kept;  // of the oldest episode, and not in the replay memory any more
-  for (Episode episode; !left.empty(); left = left.subspan(static_cast<size_t>(episode.transitions()))) {
-    Expect(FlyActions(*world_, experiment_.mask_options(), left, episode),
-           fmt::format("the last {} actions of its replay memory are no complete episodes of this scenario",
-                       left.size()));
-    ComputeLeastValues(episode);
-    for (int transition = 0; transition < episode.transitions(); ++transition) {
-      history_.Add(episode.actions[static_cast<size_t>(transition)], transition + 1 == episode.transitions());
+  for (const auto& episode : state.replay) {
+    ComputeLeastValues(*episode);
+    for (int transition = 0; transition < episode->transitions(); ++transition) {
       if (to_skip > 0) {
         --to_skip;
       } else {
-        Insert(episode, transition);
+        Insert(*episode, transition);
       }
     }
+    history_.Add(episode);
   }
 }
 

@@ -11,22 +11,23 @@
 #include "msgs/weights_codec.h"
 #include "nn/adam.h"
 #include "nn/mlp.h"
-#include "worlds/uav/aoi_figures.h"
+#include "worlds/episode.h"
 
 namespace fresco {
 
-/// The result of one greedy flight with a version of the current network. It is the version's exact score,
-/// since the environment is deterministic.
+/// The result of greedy episodes with a version of the current network (schedule.evaluation_episodes).
 struct Evaluation {
   int64_t version = 0;
-  int64_t updates = 0;   ///< updates made when the version was made
-  int64_t episodes = 0;  ///< training episodes committed when the result was committed
-  bool arrived = false;  ///< whether the flight reached the stop within time and energy
-  AoiFigures figures;
+  int64_t updates = 0;          ///< updates made when the version was made
+  int64_t episodes = 0;         ///< training episodes committed when the result was committed
+  double success = 0;           ///< share of its episodes that succeeded, 0 to 1
+  std::vector<double> figures;  ///< means over its episodes, in the order of WorldDescription::figures
+
+  double score() const { return figures.front(); }
 };
 
-/// The best version so far: among the versions that arrived, the one with the smallest average AoI (the
-/// earliest, if several have it). As long as none has arrived, it is the version evaluated last.
+/// The best version so far: the one with the largest success, and among these the best score (the earliest,
+/// if several have it). As long as none has succeeded at all, it is the version evaluated last.
 struct BestNetwork {
   Evaluation evaluation;
   std::shared_ptr<const Vector> parameters;
@@ -45,6 +46,15 @@ struct TrainerProgress {
   double loss = 0;               ///< exponential average over about 100 updates
   double staleness_updates = 0;  ///< updates between an order's writing and its commitment, exponential
                                  ///< average
+  /// Whether the training is over and the best version, as the newest version, is judged by fresh episodes.
+  bool delivering = false;
+};
+
+/// What is known of the evaluation whose episodes are being committed.
+struct PartialEvaluation {
+  int episodes = 0;             ///< committed so far
+  int successes = 0;            ///< how many of them succeeded
+  std::vector<double> figures;  ///< sums over them
 };
 
 /// The parameters of a network version.
@@ -67,12 +77,13 @@ struct TrainingState {
   Vector current;
   Vector target;
   Adam::State adam;
-  /// The actions of the episodes whose transitions are in the replay memory, oldest first. The episodes are
-  /// complete, so the first one may begin before the oldest transition in the memory. The world is
-  /// deterministic, so the transitions follow from the actions.
-  std::vector<int16_t> actions;
+  /// The episodes whose transitions are in the replay memory, oldest first. They are complete, so the first
+  /// one may begin before the oldest transition in the memory.
+  std::vector<std::shared_ptr<const Episode>> replay;
+  PartialEvaluation partial_evaluation;
   std::optional<Evaluation> last_evaluation;
   std::optional<BestNetwork> best;
+  std::optional<Evaluation> delivered;  ///< of the best version, by fresh episodes
 };
 
 }  // namespace fresco

@@ -19,11 +19,7 @@ void Append(const std::vector<T>& from, std::vector<T>& to) {
 }  // namespace
 
 LearnerDouble::LearnerDouble(Bus& bus, const Channels& channels, const Experiment& experiment, int64_t run_id)
-    : bus_(&bus),
-      channels_(channels),
-      experiment_(experiment),
-      world_(experiment.scenario()),
-      identity_{run_id, experiment.hash()} {
+    : bus_(&bus), channels_(channels), experiment_(experiment), identity_{run_id, experiment.hash()} {
   bus.Subscribe(channels.transitions, [this](std::span<const std::byte> bytes) {
     transitions_t message;
     ASSERT_TRUE(Decode(bytes, message));
@@ -38,22 +34,24 @@ LearnerDouble::LearnerDouble(Bus& bus, const Channels& channels, const Experimen
 
 void LearnerDouble::TakeTransitions(const transitions_t& message) {
   OrderResult part;
-  ASSERT_TRUE(FromWire(world_, message, part));
+  ASSERT_TRUE(FromWire(experiment_.world(), message, part));
   if (part.first_transition == 0) {
     open_ = part;
   } else {
     Episode& all = open_.episode;
     ASSERT_EQ(part.order_index, open_.order_index);
     ASSERT_EQ(part.first_transition, all.transitions());
-    part.episode.states.erase(part.episode.states.begin());  // the last one of the part before
+    ASSERT_EQ(part.seed, open_.seed);
+    const auto first_state = part.episode.states.begin();  // the last one of the part before
+    part.episode.states.erase(first_state, first_state + experiment_.world().state_size());
     Append(part.episode.states, all.states);
     Append(part.episode.actions, all.actions);
     Append(part.episode.rewards, all.rewards);
     Append(part.td_errors, open_.td_errors);
     Append(part.episode.next_masks, all.next_masks);
-    all.outcome = part.episode.outcome;
+    all.ending = part.episode.ending;
   }
-  if (open_.episode.outcome != Outcome::kFlying) {
+  if (open_.episode.ending != Ending::kNone) {
     results_.push_back(open_);
     senders_.insert(message.actor_id);
   }
@@ -172,7 +170,7 @@ std::vector<order_t> ActorTest::Orders(int64_t first, int64_t count) const {
 }
 
 OrderResult ActorTest::Expected(int64_t index) const {
-  return FlyAlone(world_, experiment_, {TrainOrder(index, kEpsilon), current_, target_});
+  return FlyAlone(experiment_, {TrainOrder(index, kEpsilon), current_, target_});
 }
 
 void ActorTest::ExpectEpisodes(size_t before, const std::vector<int64_t>& indices) const {

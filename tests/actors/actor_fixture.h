@@ -53,7 +53,6 @@ class LearnerDouble {
   Bus* bus_;
   Channels channels_;
   Experiment experiment_;
-  World world_;
   RunIdentity identity_;
   int64_t utime_ = 1;
   OrderResult open_;  // the result whose parts are arriving
@@ -99,7 +98,6 @@ class ActorTest : public ::testing::Test {
 
   Channels channels_ = ChannelsWithPrefix("TEST");
   Experiment experiment_;
-  World world_{experiment_.scenario()};
   SharedParameters current_ = SampleNetwork(experiment_, 1);
   SharedParameters target_ = SampleNetwork(experiment_, 2);
   std::unique_ptr<Bus> bus_ = OpenLcmBus("memq://");

@@ -18,10 +18,9 @@ TEST_F(ActorMemoryTest, OfEnvironmentsInFlightIsForetoldAtMost) {
                                             {"scenario.initial_energy_j", "22000"},
                                             {"agent.safe_action_mask", "true"},
                                             {"agent.sensor_geometry", "true"}});
-  const World world(experiment.scenario());
   const SharedParameters network = SampleNetwork(experiment, 1);
   const int64_t measured = HeapUseOf([&] {
-    auto flyer = std::make_unique<Flyer>(world, experiment, kEnvironments);
+    auto flyer = std::make_unique<Flyer>(experiment, kEnvironments);
     for (int64_t index = 0; index < kEnvironments; ++index) {
       flyer->Start(TrainOrder(index, 1), network, network);
     }
@@ -31,7 +30,7 @@ TEST_F(ActorMemoryTest, OfEnvironmentsInFlightIsForetoldAtMost) {
     EXPECT_EQ(flyer->open_flights(), kEnvironments);
     return flyer;
   });
-  const int64_t foretold = Flyer::BytesFor(world, experiment, kEnvironments, kEnvironments);
+  const int64_t foretold = Flyer::BytesFor(experiment, kEnvironments, kEnvironments);
   EXPECT_LE(measured, foretold);
   EXPECT_GE(measured, foretold / 2);  // a vector that grows has between once and twice the room that it needs
 }

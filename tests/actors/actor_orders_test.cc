@@ -23,7 +23,7 @@ TEST_F(ActorOrders, GiveWholeEpisodesWithTheBitsOfAFlyer) {
   BeginRun();
   SendAndFly(Orders(0, 5));
   ExpectEpisodes(0, {0, 1, 2, 3, 4});
-  EXPECT_GT(learner_.results()[0].episode.transitions(), TransitionsPerMessage(world_.sensors()));
+  EXPECT_GT(learner_.results()[0].episode.transitions(), LayoutOf(experiment_.world()).transitions);
   EXPECT_EQ(learner_.senders(), std::set<int64_t>{kActorId});
   int64_t transitions = 0;
   for (const OrderResult& result : learner_.results()) {

@@ -80,8 +80,8 @@ TEST_F(ActorTest, LeavesAFinishedRunAndServesTheNext) {
   next.SendOrders(Orders(0, 1));
   FlyAll();
   ASSERT_EQ(next.results().size(), 1u);
-  EXPECT_TRUE(SameBits(next.results()[0], FlyAlone(World(experiment.scenario()), experiment,
-                                                   {TrainOrder(0, kEpsilon), parameters, parameters})));
+  EXPECT_TRUE(
+      SameBits(next.results()[0], FlyAlone(experiment, {TrainOrder(0, kEpsilon), parameters, parameters})));
   EXPECT_EQ(learner_.results().size(), 2u);
   EXPECT_EQ(actor_.totals().runs, 2);
 }

@@ -31,10 +31,10 @@ std::vector<std::byte> Stamped(Message message, int64_t utime) {
 
 /// A part of an episode as the quick experiment's actors send them: three of 23 transitions are a whole one.
 std::vector<std::byte> Transitions(RandomStream& stream, int64_t number, int64_t utime) {
-  transitions_t message = TransitionsOf(stream, 23, 3);
+  transitions_t message = TransitionsOf(stream, 23, 7, 20);
   message.order_index = number / 3;
   message.first_transition = static_cast<int32_t>(number % 3 * 23);
-  message.outcome = number % 3 == 2 ? 1 : 0;
+  message.ending = number % 3 == 2 ? 1 : 0;
   message.actor_id = 1 + number / 3 % 4;
   return Stamped(message, utime);
 }

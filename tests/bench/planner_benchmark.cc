@@ -37,7 +37,7 @@ double PeakMemoryBytes() {
 }
 
 void PlanToTheEnd(benchmark::State& state) {
-  const World world(RandomDeployment(state));
+  const UavWorld world(RandomDeployment(state));
   Plan plan;
   ForgetPeakMemory();
   for (auto _ : state) {

@@ -1,55 +1,54 @@
-// Transitions, from bytes to the ledger, in the paper's world with three sensors. The input is a sequence
-// of encodings without trailer, each behind its length as two big-endian bytes. What FromWire lets
-// through is in range, and what the ledger commits follows from its actions.
+// Transitions, from bytes to the ledger. The first byte chooses the world (fuzzed_worlds.h). The rest is a
+// sequence of encodings without trailer, each behind its length as two big-endian bytes. What FromWire lets
+// through is in range; what the ledger commits is complete, and follows from its actions where it can be
+// flown again.
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
-#include "msgs/experiment.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/fuzzed_worlds.h"
 #include "training/ledger.h"
 
 namespace fresco {
 namespace {
 
-constexpr int kOrders = 4;
 constexpr size_t kLengthBytes = 2;
 
-const World& PapersWorld() {
-  static const World world(Experiment::Parse("", "the defaults").scenario());
-  return world;
+bool AreFinite(const std::vector<float>& values) {
+  return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
 }
 
-void CheckState(const World& world, const State& state) {
-  FRESCO_CHECK(state.slot >= 1 && state.slot <= world.scenario().slots);
-  FRESCO_CHECK(world.OnGrid(state.cell));
-  FRESCO_CHECK(std::isfinite(state.energy_margin_j));
-  FRESCO_CHECK(state.aoi.size() == static_cast<size_t>(world.sensors()));
-  const auto [least, most] = std::minmax_element(state.aoi.begin(), state.aoi.end());
-  FRESCO_CHECK(*least >= 1 && *most <= world.scenario().slots);
-}
-
-void CheckEpisode(const World& world, const Episode& episode) {
-  const auto finite = [](float value) { return std::isfinite(value); };
+/// Transitions of which each state has so many fields.
+void CheckEpisode(const World& world, const Episode& episode, int fields) {
   const size_t count = episode.actions.size();
-  FRESCO_CHECK(count >= 1 && episode.states.size() == count + 1 && episode.rewards.size() == count);
-  FRESCO_CHECK(episode.next_masks.size() == count * static_cast<size_t>(MaskSize(world)));
-  for (const State& state : episode.states) {
-    CheckState(world, state);
-  }
-  FRESCO_CHECK(std::all_of(episode.rewards.begin(), episode.rewards.end(), finite));
+  FRESCO_CHECK(count >= 1 && episode.rewards.size() == count);
+  FRESCO_CHECK(episode.states.size() == (count + 1) * static_cast<size_t>(fields));
+  FRESCO_CHECK(episode.next_masks.size() == count * static_cast<size_t>(MaskSize(world.actions())));
+  FRESCO_CHECK(AreFinite(episode.states) && AreFinite(episode.rewards));
   for (const int16_t action : episode.actions) {
     FRESCO_CHECK(action >= 0 && action < world.actions());
   }
 }
 
 void CheckPart(const World& world, const OrderResult& part) {
-  CheckEpisode(world, part.episode);
-  FRESCO_CHECK(part.td_errors.size() == part.episode.actions.size());
+  const MessageLayout layout = LayoutOf(world);
+  const int fields = std::min(layout.fields, world.state_size() - part.first_field);
+  FRESCO_CHECK(part.first_field >= 0 && fields >= 1 && part.first_field % layout.fields == 0);
+  CheckEpisode(world, part.episode, fields);
+  FRESCO_CHECK(part.td_errors.size() == part.episode.actions.size() && AreFinite(part.td_errors));
   FRESCO_CHECK(part.first_transition >= 0 && part.order_index >= 0);
-  FRESCO_CHECK(part.first_transition + part.episode.transitions() <= world.maximum_transitions());
-  FRESCO_CHECK(std::all_of(part.td_errors.begin(), part.td_errors.end(),
-                           [](float value) { return std::isfinite(value); }));
+  FRESCO_CHECK(part.first_transition + part.episode.transitions() <= world.longest_episode());
+}
+
+void CheckCommitted(const World& world, const CommittedEpisode& committed) {
+  CheckEpisode(world, committed.episode, world.state_size());
+  FRESCO_CHECK(committed.episode.ending != Ending::kNone);
+  FRESCO_CHECK(committed.episode.transitions() <= world.longest_episode());
+  Episode flown;
+  FRESCO_CHECK(!world.description().repeatable ||
+               (FlyActions(world, committed.order.seed, committed.episode.actions, flown) &&
+                SameBits(committed.episode, flown)));
 }
 
 /// The next encoding of the input, which it is cut off from; empty at the end.
@@ -63,11 +62,10 @@ std::span<const std::byte> NextEncoding(std::span<const std::byte>& input) {
   return encoding;
 }
 
-void CheckAll(std::span<const std::byte> input) {
-  const World& world = PapersWorld();
-  Ledger ledger(world, {});
-  for (int64_t index = 0; index < kOrders; ++index) {
-    ledger.Write({.index = index});
+void CheckAll(const World& world, std::span<const std::byte> input) {
+  Ledger ledger(world);
+  for (int64_t index = 0; index < kFuzzedOrders; ++index) {
+    ledger.Write(FuzzedOrder(index));
   }
   transitions_t message{};
   OrderResult part;
@@ -78,10 +76,7 @@ void CheckAll(std::span<const std::byte> input) {
     }
   }
   while (const auto committed = ledger.TakeNext()) {
-    CheckEpisode(world, committed->episode);
-    Episode flown;
-    FRESCO_CHECK(FlyActions(world, {}, committed->episode.actions, flown) &&
-                 IsPartOf(committed->episode, 0, flown));
+    CheckCommitted(world, *committed);
   }
 }
 
@@ -89,6 +84,8 @@ void CheckAll(std::span<const std::byte> input) {
 }  // namespace fresco
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  fresco::CheckAll(std::as_bytes(std::span(data, size)));
+  if (size > 0) {
+    fresco::CheckAll(fresco::FuzzedWorld(data[0]), std::as_bytes(std::span(data + 1, size - 1)));
+  }
   return 0;
 }

@@ -10,6 +10,7 @@
 #include "msgs/order.h"
 #include "msgs/run_announcements.h"
 #include "msgs/weights_codec.h"
+#include "msgs/world_messages.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace fresco {
@@ -41,6 +42,16 @@ void CheckContent(const run_t& message) {
   const auto text = announcements.Add(message);
   FRESCO_CHECK(!text ||
                (message.part_count == 1 && *text == std::string(message.part.begin(), message.part.end())));
+}
+
+void CheckContent(const world_t& message) {
+  WorldNamesReader reader;
+  reader.Add(message);
+  if (const WorldNames* names = reader.names()) {
+    FRESCO_CHECK(names->state.size() == static_cast<size_t>(message.state_size));
+    FRESCO_CHECK(names->actions.size() == static_cast<size_t>(message.action_count));
+    FRESCO_CHECK(names->figures.size() == static_cast<size_t>(message.figure_count));
+  }
 }
 
 void CheckPeeked(const std::vector<std::byte>& bytes, const transitions_t& message) {

@@ -13,8 +13,8 @@
 #include "logs/event_log_writer.h"
 #include "storage/checkpoint_file.h"
 #include "storage/network_file.h"
+#include "tests/fuzz/fuzzed_worlds.h"
 #include "tests/msgs/message_samples.h"
-#include "worlds/uav/environment.h"
 
 namespace fresco {
 namespace {
@@ -61,20 +61,22 @@ void WriteWire(const std::filesystem::path& directory) {
 
 void WriteTransitions(const std::filesystem::path& directory) {
   Corpus corpus(directory, "transitions_fuzz");
-  const World world(Experiment::Parse("", "the defaults").scenario());
-  for (int64_t order = 0; order < 4; ++order) {
-    Bytes sample;
-    RandomStream stream(2, RandomPurpose::kTest, static_cast<uint32_t>(order), 0);
-    const OrderResult result = RandomResult(world, order, {order % 2 == 0, false}, stream);
-    SplitResult(world, result, 3, [&](transitions_t message) {
-      Stamp(message, {1, 2}, 1);
-      const Bytes bytes = Encoded(message);
-      const auto encoding = std::span(bytes).first(bytes.size() - kTrailerBytes);
-      sample.push_back(static_cast<std::byte>(encoding.size() >> 8));
-      sample.push_back(static_cast<std::byte>(encoding.size()));
-      sample.insert(sample.end(), encoding.begin(), encoding.end());
-    });
-    corpus.Add(sample);
+  for (uint8_t number = 0; number < kFuzzedWorlds; ++number) {
+    const World& world = FuzzedWorld(number);
+    for (int64_t index = 0; index < kFuzzedOrders; ++index) {
+      Bytes sample = {static_cast<std::byte>(number)};
+      RandomStream stream(2, RandomPurpose::kTest, static_cast<uint32_t>(index), number);
+      const OrderResult result = RandomResult(world, FuzzedOrder(index), stream);
+      SplitResult(world, result, 3, [&](transitions_t message) {
+        Stamp(message, {1, 2}, 1);
+        const Bytes bytes = Encoded(message);
+        const auto encoding = std::span(bytes).first(bytes.size() - kTrailerBytes);
+        sample.push_back(static_cast<std::byte>(encoding.size() >> 8));
+        sample.push_back(static_cast<std::byte>(encoding.size()));
+        sample.insert(sample.end(), encoding.begin(), encoding.end());
+      });
+      corpus.Add(sample);
+    }
   }
 }
 
@@ -88,6 +90,7 @@ void WriteTexts(const std::filesystem::path& directory, std::span<char*> configs
   for (const char* lines :
        {"schedule.seed=3\nagent.hidden_layers=64,64\n1f", "scenario.sensor[0].x_m=30\n0123456789abcdef",
         "run.lcm_url=udpm://239.255.76.67:7667?ttl=1\nrun.channel_prefix=\"A_b-9\"",
+        "cartpole.maximum_steps=12\nschedule.evaluation_episodes=10",
         "agent.double_dqn=true\nagent.exponential.unit=EPISODES\nscenario.coverage_radius_m=1e2"}) {
     settings.Add(lines);
   }
@@ -141,9 +144,14 @@ void WriteFiles(const std::filesystem::path& directory) {
   training.versions.push_back({{NetworkKind::kCurrent, 0}, 0, std::make_shared<const Vector>(parameters)});
   training.current = training.target = parameters;
   training.adam = {1, 0.9, 0.999, parameters, parameters};
-  training.actions = {0, 1, 2};
-  training.best = {{1, 100, 5, true, {30, 5.0, 30.0}}, std::make_shared<const Vector>(parameters)};
-  training.last_evaluation = training.best->evaluation;
+  RandomStream stream(3, RandomPurpose::kTest, 0, 0);
+  for (int64_t index = 0; index < 2; ++index) {
+    training.replay.push_back(std::make_shared<const Episode>(
+        RandomResult(experiment.world(), FuzzedOrder(index), stream).episode));
+  }
+  training.best = {{1, 100, 5, 1, {5, 30, 30}}, std::make_shared<const Vector>(parameters)};
+  training.last_evaluation = training.delivered = training.best->evaluation;
+  training.partial_evaluation = {1, 1, {5, 30, 30}};
   checkpoint.metrics = "version,total_aoi\n1,30\n";
   checkpoint.counters = {{"received", 3}};
   Corpus(directory, "checkpoint_fuzz").Add(SerializeCheckpoint(checkpoint));

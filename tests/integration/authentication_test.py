@@ -101,7 +101,7 @@ class Authentication(FrescoTest):
                 self.assertLessEqual(len(data), 1350, channel)
                 tag = hashlib.blake2b(channel.encode() + b"\0" + data[:-TAG_BYTES], key=secret, digest_size=TAG_BYTES)
                 self.assertEqual(data[-TAG_BYTES:], tag.digest(), channel)
-        self.assertEqual(len(channels), 8)
+        self.assertEqual(len(channels), 9)
 
     def test_refuses_a_bad_key_file_with_the_command_that_mends_it(self):
         making = "head -c 32 /dev/urandom > "

@@ -5,7 +5,7 @@ import signal
 import sys
 import unittest
 
-from fresco_process import BIN, CI_CONFIG, FrescoTest, url, wait_until
+from fresco_process import BIN, CI_CONFIG, READY_EXPERIMENTS, FrescoTest, url, wait_until
 
 CONFIGS = [
     ("scenario { slotz: 70 }", ["slotz", "did you mean slots?"]),
@@ -18,6 +18,11 @@ CONFIGS = [
     ("scenario { coverage_radius_m: 100 transmit_power_w: 1 }", ["coverage_radius_m", "transmit_power_w"]),
     ("scenario { transmit_power_w: 1e-9 }", ["1e-09"]),
     ("run { channel_prefix: \"a b\" }", ["run.channel_prefix", "a b", "allowed"]),
+    ("scenario {}\ncartpole {}", ["textproto:2:", "cartpole", "scenario"]),
+    ("cartpole { maximum_steps: 0 }", ["cartpole.maximum_steps", "0", "allowed"]),
+    ("cartpole {} agent { coverage_mask: true }", ["agent.coverage_mask", "true", "allowed", "cartpole"]),
+    ("cartpole {} schedule { excursion_share: 0.5 }", ["schedule.excursion_share", "0.5", "allowed", "cartpole"]),
+    ("cartpole {} agent { flown_return_bound: true }", ["agent.flown_return_bound", "true", "allowed", "cartpole"]),
 ]
 # What every program refuses that is on a bus.
 URLS = [
@@ -33,13 +38,14 @@ BUS = URLS + [
 ]
 # What every program refuses that reads an experiment.
 EXPERIMENTS = [
-    (["--config", "/nowhere.textproto"], ["/nowhere.textproto", "ci, paper, quick, tight_energy"]),
+    (["--config", "/nowhere.textproto"], ["/nowhere.textproto", READY_EXPERIMENTS]),
     (["--config", "quik"], ["did you mean quick?"]),
     (["--config", "configs/papr.textproto"], ["did you mean paper?"]),
     (["--set", "agent.batchsize=3"], ["batchsize", "did you mean agent.batch_size?"]),
     (["--set", "agnet.hidden_layers=3"], ["did you mean agent.hidden_layers?"]),
     (["--set", "agent.batch_size=many"], ["many"]),
     (["--set", "agent"], ["path=value"]),
+    (["--set", "cartpole.maximum_steps=9"], ["cartpole.maximum_steps", "scenario", "--config"]),
 ]
 NO_FOLDER = (["--out", "file/run"], ["--out", "file is not a folder"])
 NO_PROGRAMS = {"PATH": "/nowhere"}
@@ -48,7 +54,9 @@ NO_PROGRAMS = {"PATH": "/nowhere"}
 # Fields whose size no host has the memory for, and what they are for.
 TOO_LARGE = [
     (["agent.replay_capacity=100000000", "scenario.random_sensors.count=250", "agent.sensor_geometry=true"],
-     ["agent.replay_capacity: the replay memory needs 621.4 GB"]),  # 6,214 bytes a transition
+     # 10,984 bytes a transition: 6,200 as the network sees it, and four times the 1,196 of its episode, since a checkpoint
+     # takes three copies.
+     ["agent.replay_capacity: the replay memory needs 740.2 GB"]),
     (["run.optimum_memory_mb=1000000"], ["run.optimum_memory_mb: the search for the exact optimum needs 1000.0 GB"]),
     (["schedule.window=4096", "schedule.updates_per_version=1", "schedule.inserts_per_update=1",
       "agent.hidden_layers=2000,2000"], ["schedule.window: the versions of the networks"]),
@@ -177,12 +185,21 @@ class BadInput(FrescoTest):
         self.refuse(["did you mean csv?"], "log", "export", "a", "--format", "cvs")
 
     def test_of_a_policy_says_what_a_policy_can_be(self):
-        kinds = "aoi, distance, optimal, the folder of a run"
+        kinds = "the folder of a run (with a best.network), a network file or a checkpoint"
         (self.here / "runs").mkdir()
         for policy, words in [("optimall", ["did you mean optimal?"]), ("nowhere", ["\"nowhere\""]),
                               ("runs", ["runs has no best.network"]), ("file", ["file: not a network file"])]:
             self.refuse([kinds, *words], "evaluate", "--policy", policy)
             self.refuse([kinds, *words], "fly", "--policy", policy)
+
+    def test_of_a_world_that_can_not_do_this_is_refused_with_words(self):
+        config = self.folder / "cartpole.textproto"
+        config.write_text("cartpole {}")
+        for policy in ("aoi", "distance", "optimal"):
+            for command in ("evaluate", "fly"):
+                self.refuse([f"\"{policy}\"", "the world has no policies of its own"], command, "--policy", policy, "--config", config)
+        self.refuse(["fresco figures", "cartpole"], "figures", "--quick", "--config", config, "--out", "study")
+        self.refuse(["scenario.slots", "cartpole"], "train", "--config", config, "--set", "scenario.slots=30")
 
     def test_of_a_size_that_no_memory_has_is_refused_before_anything_is_written_or_started(self):
         for settings, words in TOO_LARGE:

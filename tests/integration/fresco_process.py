@@ -17,6 +17,10 @@ PATIENCE = float(os.environ.get("FRESCO_PATIENCE", 1))
 SOAK_ARGUMENTS = os.environ.get("FRESCO_SOAK_ARGUMENTS", "").split()
 
 
+# As errors and help list them.
+READY_EXPERIMENTS = ", ".join(sorted(path.stem for path in (ROOT / "configs").glob("*.textproto")))
+
+
 def url(port):
     return f"udpm://239.255.76.67:{port}?ttl=0"
 

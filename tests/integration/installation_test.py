@@ -7,10 +7,10 @@ import subprocess
 import sys
 import unittest
 
-from fresco_process import CI_CONFIG, PATIENCE, ROOT, FrescoTest, url
+from fresco_process import CI_CONFIG, PATIENCE, ROOT, READY_EXPERIMENTS, FrescoTest, url
 
 BUILD = pathlib.Path(os.environ["FRESCO_BUILD"])
-PROGRAMS = ["fresco", "fresco-actor", "fresco-learner"]
+PROGRAMS = ["fresco", "fresco-actor", "fresco-learner", "fresco-world"]
 # In a mount namespace of its own, where the source tree, and the build tree in it, is an empty folder.
 WITHOUT_SOURCES = ["unshare", "--mount", "sh", "-c", 'mount -t tmpfs none "$0" && exec "$@"', ROOT]
 
@@ -68,7 +68,7 @@ class Installation(FrescoTest):
             self.assertEqual(flown("--config", name), quick)
         self.assertNotEqual(flown("--config", "tight_energy"), quick)
         _, errors = self.run_installed("fresco", "evaluate", "--policy", "aoi", "--config", "slow", expect=2)
-        self.assertIn(f"ci, paper, quick, tight_energy in {self.prefix}/share/fresco/configs", errors)
+        self.assertIn(f"{READY_EXPERIMENTS} in {self.prefix}/share/fresco/configs", errors)
         for program in ("fresco-learner", "fresco"):
             output, _ = self.run_installed(program, *(["train"] if program == "fresco" else []), "--help")
             self.assertIn("default: quick", output)

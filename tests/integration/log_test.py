@@ -41,6 +41,15 @@ def messages(events, *channels):
     return [message for _, channel, message in events if not channels or channel in channels]
 
 
+FIELDS = ("column", "row", "time_margin", "energy_margin_j", "aoi_1", "aoi_2", "aoi_3")  # with three sensors
+MOVES = ("north", "south", "east", "west", "hover")
+
+
+def action_name(action):
+    """With three sensors: a move, and which of them transmits."""
+    return MOVES[action // 4] + (f", sensor {action % 4}" if action % 4 else "")
+
+
 def parse_transitions(message):
     """The rows of a transitions_t, field by field as msgs/lcm/transitions_t.lcm lists them."""
     position = 8
@@ -52,25 +61,25 @@ def parse_transitions(message):
         return values[0] if count is None else list(values)
 
     utime, run_id, _ = take("q", 3)
-    transitions, states, sensors, mask_size = take("i", 4)
-    order_index, actor_id = take("q", 2)
-    first, outcome = take("i"), take("b")
-    column, row, margin = take("h", states), take("h", states), take("h", states)
-    energy = take("f", states)
-    aoi = [take("h", sensors) for _ in range(states)]
+    transitions, states, fields, mask_size = take("i", 4)
+    assert (states, fields, mask_size) == (transitions + 1, len(FIELDS), 3)
+    order_index, actor_id, seed = take("q", 3)
+    first, first_field = take("i", 2)
+    ending = take("b")
+    assert first_field == 0
+    state = [take("f", fields) for _ in range(states)]
     action, reward, td_error = take("h", transitions), take("f", transitions), take("f", transitions)
     masks = [take("B", mask_size) for _ in range(transitions)]
     assert position == len(message) - 4, "the CRC stands behind"
     for i in range(transitions):
-        allowed = [a for a in range(5 * (sensors + 1)) if masks[i][a // 8] >> a % 8 & 1]
+        allowed = [a for a in range(5 * 4) if masks[i][a // 8] >> a % 8 & 1]
         yield {"utime": utime, "run_id": f"{run_id:016x}", "order_index": order_index, "actor_id": actor_id,
-               "transition": first + i, "column": column[i], "row": row[i], "time_margin": margin[i],
-               "energy_margin_j": energy[i], **{f"aoi_{n + 1}": aoi[i][n] for n in range(sensors)},
-               "action": action[i], "scheduled": action[i] % (sensors + 1), "reward": reward[i],
-               "td_error": td_error[i], "terminal": int(outcome != 0 and i + 1 == transitions),
-               "next_column": column[i + 1], "next_energy_margin_j": energy[i + 1],
-               "next_allowed_actions": " ".join(map(str, allowed)),
-               "move": ("north", "south", "east", "west", "hover")[action[i] // (sensors + 1)]}
+               "seed": seed, "transition": first + i,
+               "ending": ("none", "terminal", "truncated")[ending if i + 1 == transitions else 0],
+               **dict(zip(FIELDS, state[i])), "action": action[i], "action_name": action_name(action[i]),
+               "reward": reward[i], "td_error": td_error[i],
+               **{"next_" + name: value for name, value in zip(FIELDS, state[i + 1])},
+               "next_allowed_actions": " ".join(map(str, allowed))}
 
 
 def float32(text):
@@ -178,6 +187,7 @@ class Log(Recorded):
         output, _ = self.run_fresco("log", "export", log)
         table = list(csv.DictReader(output.splitlines()))
         self.assertEqual(len(table), len(expected))
+        self.assertEqual(list(table[0]), list(expected[0]), "the columns")
         for row, wanted in zip(table, expected):
             for name, value in wanted.items():
                 found = float32(row[name]) if isinstance(value, float) else type(value)(row[name])

@@ -118,7 +118,7 @@ class Retrain(FrescoTest):
         _, errors = self.retrain(log, "--set", f"schedule.episodes={episodes + 1}", *QUICK, expect=2)
         self.assertIn(f"--set schedule.episodes={episodes}", errors)
         _, errors = self.retrain(log, "--set", "scenario.coverage_radius_m=90", *QUICK, expect=2)
-        self.assertIn("another scenario", errors)
+        self.assertIn("another world", errors)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["again-1", "live", "text"])
 
     def test_refuses_what_is_no_log_or_holds_no_run(self):

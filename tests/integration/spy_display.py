@@ -10,7 +10,7 @@ from fresco_process import BIN, url
 
 NEEDED = ("java", "Xvfb", "xdotool", "import", "convert")
 JAR = BIN.parent / "share" / "fresco" / "fresco_spy.jar"
-TITLES = {"flight": "Fresco flight: ", "learner": "Fresco learner: run", "actors": "Fresco actors: run",
+TITLES = {"flight": "Fresco flight: ", "learner": "Fresco learner: run", "actors": "Fresco actors: run", "episode": "Fresco episode: ",
           "table": "LCM Spy"}
 WIDTH, HEIGHT = 1280, 840
 
@@ -54,6 +54,13 @@ class Display:
                 return found[-1]
             time.sleep(0.1)
         raise AssertionError(f"waited {timeout_s} s for the window \"{TITLES[name]}\"")
+
+    def shows(self, name):
+        return bool(self.run("xdotool", "search", "--onlyvisible", "--name", TITLES[name]).stdout.split())
+
+    def double_click(self, window, x, y):
+        self.run("xdotool", "mousemove", "--window", window, str(x), str(y))
+        self.run("xdotool", "click", "--repeat", "2", "--delay", "60", "1")
 
     def picture(self, window, path):
         """Its content as a PNG, as small as can be without a loss that is seen."""

@@ -22,6 +22,7 @@ def main():
     PICTURES.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="fresco-pictures-") as folder, spy_display.Display() as display:
         picture_flight(display)
+        picture_episode(display, pathlib.Path(folder))
         picture_run(display, pathlib.Path(folder))
 
 
@@ -40,6 +41,17 @@ def picture_flight(display):
         time.sleep(8)  # about slot 41 of 70: the flight is to be seen, and data are collected
         take(display, "flight")
         end(fly)
+
+
+def picture_episode(display, folder):
+    run = start("train", "--config", ROOT / "configs" / "cartpole.textproto", "--set", "schedule.episodes=100000",
+                "--out", folder / "cartpole")
+    time.sleep(15)  # until the pole is balanced for long
+    with spy_display.Spy(display, PORT, "--open", "episode"):
+        display.window("episode")
+        time.sleep(5)
+        take(display, "episode")
+    end(run)
 
 
 def picture_run(display, folder):

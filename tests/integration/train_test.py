@@ -11,7 +11,7 @@ from fresco_process import CI_CONFIG, PATIENCE, ROOT, FrescoTest, processes_with
 
 SUMMARY_KEYS = {
     "run_id", "config_hash", "seed", "episodes", "transitions", "updates", "wall_s", "updates_per_s",
-    "transitions_per_s", "weights_crc32c", "total_aoi", "average_aoi", "arrived",
+    "transitions_per_s", "weights_crc32c", "world", "score", "success", "total_aoi", "average_aoi", "sum_aoi", "arrived",
     "optimal_total_aoi", "gap_percent", "baselines", "bus"}
 
 NO_SEARCH = ("--set", "run.optimum_limit_s=0")  # for the exact optimum
@@ -96,7 +96,7 @@ class Train(FrescoTest):
                 sizes[channel] = max(len(data), sizes.get(channel, 0))
         self.assertEqual(set(sizes), {"FRESCO_" + name for name in (
             "RUN", "ORDERS", "TRANSITIONS", "WEIGHTS_CURRENT", "WEIGHTS_TARGET", "ACTOR_STATUS", "LEARNER_STATUS",
-            "SCENARIO")})
+            "SCENARIO", "WORLD")})
         self.assertLessEqual(max(sizes.values()), 1350)
 
     def test_ends_in_order_on_interrupt(self):
@@ -192,8 +192,8 @@ class Train(FrescoTest):
         configs = sorted((ROOT / "configs").glob("*.textproto"))
         self.assertGreaterEqual(len(configs), 4)
         for config in configs:
-            summary = self.train(17308, config.stem, "--set", "schedule.episodes=12", "--set",
-                                 "schedule.minimum_replay_size=500", *NO_SEARCH, config=config)
+            summary = self.train(17308, config.stem, "--set", "schedule.episodes=12", "--set",  # some are short
+                                 "schedule.minimum_replay_size=100", *NO_SEARCH, config=config)
             self.assertEqual(summary["episodes"], 12, config)
             self.assertGreater(summary["updates"], 0, config)
 

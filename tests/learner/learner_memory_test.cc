@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <deque>
 #include <memory>
+#include <string>
 
 #include "learner/weight_publisher.h"
 #include "msgs/versions_in_flight.h"
 #include "storage/checkpoint_file.h"
 #include "tests/support/heap_use.h"
 #include "tests/training/literal_run.h"
+#include "tests/worlds/play.h"
 #include "training/dqn.h"
 #include "training/ledger.h"
 #include "training/replay_memory.h"
@@ -21,6 +23,22 @@ namespace {
 
 constexpr double kMemoryTolerance = 0.02;
 const MlpShape kMemoryShape({25, 300, 200, 45});
+
+/// The episode in vectors that have grown transition by transition.
+Episode Grown(const Episode& episode) {
+  Episode grown;
+  const auto grow = [](const auto& from, auto& to) {
+    for (const auto& value : from) {
+      to.push_back(value);
+    }
+  };
+  grown.ending = episode.ending;
+  grow(episode.states, grown.states);
+  grow(episode.actions, grown.actions);
+  grow(episode.rewards, grown.rewards);
+  grow(episode.next_masks, grown.next_masks);
+  return grown;
+}
 
 /// `foretold` within `tolerance` of what was measured.
 void ExpectNear(int64_t measured, int64_t foretold, double tolerance = kMemoryTolerance) {
@@ -33,8 +51,39 @@ using LearnerMemoryTest = HeapUseTest;
 TEST_F(LearnerMemoryTest, OfTheReplayMemoryAndItsActionsIsForetold) {
   ExpectNear(HeapUseOf([] { return std::make_unique<ReplayMemory>(25, 45, 10'000); }),
              ReplayMemory::BytesFor(25, 45, 10'000));
-  ExpectNear(HeapUseOf([] { return std::make_unique<ActionHistory>(50'000, 70); }),
-             ActionHistory::BytesFor(50'000, 70));
+}
+
+/// Of episodes as the ledger hands them out, whose vectors have grown part by part.
+TEST_F(LearnerMemoryTest, OfTheEpisodesInTheReplayMemoryIsForetold) {
+  constexpr int64_t kTransitions = 20'000;
+  for (const char* steps : {"100", "500"}) {
+    const Experiment experiment = SmallCartPole({{"cartpole.maximum_steps", steps},
+                                                 {"agent.replay_capacity", std::to_string(kTransitions)},
+                                                 {"schedule.minimum_replay_size", "1000000"},
+                                                 {"schedule.episodes", "100000"},
+                                                 {"schedule.window", "1"}});
+    const Episode episode = Play(experiment.world(), 1, [](std::span<const float> state) {
+      return state[2] + state[3] > 0 ? 1 : 0;  // as long as can be
+    });
+    ASSERT_EQ(episode.transitions(), experiment.world().longest_episode());
+    std::deque<Order> orders;
+    Trainer trainer(experiment, {[&](const Order& order) { orders.push_back(order); },
+                                 [](NetworkVersion, std::shared_ptr<const Vector>) {},
+                                 [](const Evaluation&) {},
+                                 {}});
+    trainer.Begin();
+    const auto commit_up_to = [&](int64_t transitions) {
+      while (trainer.progress().transitions < transitions) {
+        const Order order = orders.front();
+        orders.pop_front();
+        trainer.Commit(order, Grown(episode));
+      }
+      return std::make_unique<int>(0);
+    };
+    const int64_t measured = HeapUseOf([&] { return commit_up_to(kTransitions); });
+    ExpectNear(measured, EpisodeHistory::BytesFor(experiment.world(), kTransitions), 0.1);
+    EXPECT_LT(HeapUseOf([&] { return commit_up_to(4 * kTransitions); }), measured / 20) << "it was full";
+  }
 }
 
 TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
@@ -55,22 +104,27 @@ TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
   ExpectNear(measured, Dqn::ParameterBytes(kMemoryShape) + Dqn::BatchBytes(kMemoryShape, kColumns));
 }
 
-TEST_F(LearnerMemoryTest, OfOrdersInFlightIsForetold) {
+TEST_F(LearnerMemoryTest, OfOrdersInFlightIsForetoldAtMost) {
   const RecordedRun run;
   constexpr int64_t kManyOrders = 300;
-  OrderResult result = ResultOf(0, run.Fly(run.next()));
+  OrderResult result = ResultOf(run.next(), run.Fly(run.next()));
   const int64_t measured = HeapUseOf([&] {
-    auto ledger = std::make_unique<Ledger>(run.world, run.experiment.mask_options());
+    auto ledger = std::make_unique<Ledger>(run.world);
     for (int64_t index = 0; index < kManyOrders; ++index) {
       Order order;
       order.index = index;
+      order.seed = result.seed;
       ledger->Write(order);
       result.order_index = index;
-      EXPECT_EQ(ledger->Add(result), Ledger::Arrival::kCompleted);
+      for (int first = 1; first < result.episode.transitions(); ++first) {  // all but the first one
+        EXPECT_EQ(ledger->Add(PartOf(run.world, result, first, 1)), Ledger::Arrival::kAccepted);
+      }
     }
     return ledger;
   });
-  ExpectNear(measured, Ledger::BytesFor(run.world, kManyOrders), 0.15);  // small blocks, rounded up
+  const int64_t foretold = Ledger::BytesFor(run.world, kManyOrders);
+  EXPECT_LE(measured, foretold);
+  EXPECT_GE(measured, foretold / 2);  // a vector that grows has between once and twice the room that it needs
 }
 
 TEST_F(LearnerMemoryTest, OfAPublishedVersionIsForetold) {
@@ -86,9 +140,8 @@ TEST_F(LearnerMemoryTest, OfAPublishedVersionIsForetold) {
   ExpectNear(measured, kVersions * WeightPublisher::BytesPerVersion(parameters->size()), 0.05);
 }
 
-/// The longest that a run's orders hold versions back, against what is foretold.
-void ExpectVersionsForetold(const Settings& settings) {
-  RecordedRun run(settings);
+/// Returns the most versions that a run's orders hold back at a time; they are no more than foretold.
+VersionsInFlight ExpectVersionsForetoldAtMost(RecordedRun& run) {
   VersionsInFlight most;
   while (!run.trainer.finished()) {
     run.Commit(run.Fly(run.next()));
@@ -101,6 +154,14 @@ void ExpectVersionsForetold(const Settings& settings) {
   const VersionsInFlight foretold = MostVersionsInFlight(run.experiment);
   EXPECT_LE(most.current, foretold.current);
   EXPECT_LE(most.target, foretold.target);
+  return most;
+}
+
+/// Where every episode is as long as it can be, they are hardly fewer.
+void ExpectVersionsForetold(const Settings& settings) {
+  RecordedRun run(settings);
+  const VersionsInFlight most = ExpectVersionsForetoldAtMost(run);
+  const VersionsInFlight foretold = MostVersionsInFlight(run.experiment);
   // Less where evaluations, which make no updates, take places of the window.
   EXPECT_GE(most.current + 3, foretold.current * 9 / 10);
   EXPECT_GE(most.target + 3, foretold.target * 9 / 10);
@@ -112,6 +173,13 @@ TEST_F(LearnerMemoryTest, OfVersionsThatOrdersHoldBackIsForetold) {
   ExpectVersionsForetold({{"schedule.window", "20"}, {"schedule.updates_per_version", "2"}});
 }
 
+TEST_F(LearnerMemoryTest, OfVersionsThatManyEvaluationsHoldBackIsForetoldAtMost) {
+  RecordedRun run(SmallCartPole({{"schedule.updates_per_version", "1"},
+                                 {"schedule.versions_per_evaluation", "1"},
+                                 {"agent.target_update_period", "1"}}));
+  ExpectVersionsForetoldAtMost(run);
+}
+
 TEST_F(LearnerMemoryTest, OfACheckpointIsForetoldAtMost) {
   RecordedRun run(Settings{{"agent.hidden_layers", "200,200"}});
   while (run.trainer.progress().updates < 100) {
@@ -119,7 +187,7 @@ TEST_F(LearnerMemoryTest, OfACheckpointIsForetoldAtMost) {
   }
   const TrainingState state = run.trainer.Save();
   const int64_t foretold = CheckpointBytes(state.current.size(), static_cast<int64_t>(state.versions.size()),
-                                           static_cast<int64_t>(state.actions.size()));
+                                           EpisodeHistory::BytesFor(run.world, 300));
   const auto file =
       static_cast<int64_t>(SerializeCheckpoint({run.experiment, ArithmeticFingerprint(), 1, state}).size());
   const int64_t copied = HeapUseOf([&] { return std::make_unique<TrainingState>(run.trainer.Save()); });

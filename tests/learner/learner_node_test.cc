@@ -8,8 +8,10 @@
 
 #include "core/clock.h"
 #include "msgs/protocol_times.h"
+#include "msgs/world_messages.h"
 #include "tests/msgs/message_samples.h"
 #include "tests/training/literal_run.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -18,7 +20,7 @@ constexpr int64_t kRunId = 0x2a;
 
 class LearnerNodeTest : public ::testing::Test {
  protected:
-  LearnerNodeTest() : experiment_(SmallExperiment()), world_(experiment_.scenario()) {
+  LearnerNodeTest() : experiment_(SmallExperiment()) {
     spdlog::set_level(spdlog::level::err);
     bus_->Subscribe(channels_.learner_status,
                     [this](std::span<const std::byte> bytes) { ASSERT_TRUE(Decode(bytes, status_)); });
@@ -47,10 +49,9 @@ class LearnerNodeTest : public ::testing::Test {
   }
 
   Experiment experiment_;
-  World world_;
   Channels channels_ = ChannelsWithPrefix("TEST");
   std::unique_ptr<Bus> bus_ = OpenLcmBus("memq://");
-  LearnerNode node_{experiment_, world_, kRunId, *bus_, channels_};
+  LearnerNode node_{experiment_, kRunId, *bus_, channels_};
   learner_status_t status_{};
 };
 
@@ -66,13 +67,16 @@ TEST_F(LearnerNodeTest, ShowsAWarningInItsStatusUntilItIsTakenBack) {
 
 TEST_F(LearnerNodeTest, TellsAGapOnlyToAProvedOptimum) {
   Evaluation evaluation;
-  evaluation.arrived = true;
-  evaluation.figures.average_aoi = 12;
+  evaluation.success = 1;
+  evaluation.figures = {12, 1000, 3};
   TrainingReport report{.last_evaluation = evaluation, .best = BestNetwork{evaluation, nullptr}};
   report.optimum = {2, false};
   node_.Report(report);
   learner_status_t status = NextStatus();
-  EXPECT_EQ(status.lower_bound_average_aoi, 2);
+  EXPECT_EQ(status.score, 12);
+  EXPECT_EQ(status.success, 1);
+  EXPECT_EQ(status.best_score, 12);
+  EXPECT_EQ(status.score_bound, 2);
   EXPECT_EQ(status.optimum_proved, 0);
   EXPECT_TRUE(std::isnan(status.gap_percent));
   report.optimum = {10, true};
@@ -88,9 +92,44 @@ TEST_F(LearnerNodeTest, TellsViewersItsField) {
                   [&](std::span<const std::byte> bytes) { ASSERT_TRUE(Decode(bytes, field)); });
   NextStatus();
   EXPECT_EQ(IdentityOf(field), (RunIdentity{kRunId, experiment_.hash()}));
-  EXPECT_EQ(field.slots, world_.scenario().slots);
-  ASSERT_EQ(field.sensor_count, world_.sensors());
-  EXPECT_EQ(field.x_m[0], world_.scenario().sensors[0].x_m);
+  const UavWorld& world = RequireUavWorld(experiment_.world(), "the test");
+  EXPECT_EQ(field.slots, world.scenario().slots);
+  ASSERT_EQ(field.sensor_count, world.sensors());
+  EXPECT_EQ(field.x_m[0], world.scenario().sensors[0].x_m);
+}
+
+TEST_F(LearnerNodeTest, TellsViewersTheNamesOfItsWorld) {
+  WorldNamesReader reader;
+  bus_->Subscribe(channels_.world, [&](std::span<const std::byte> bytes) {
+    world_t message{};
+    ASSERT_TRUE(Decode(bytes, message));
+    EXPECT_EQ(IdentityOf(message), (RunIdentity{kRunId, experiment_.hash()}));
+    reader.Add(message);
+  });
+  NextStatus();
+  const WorldNames* names = reader.names();
+  ASSERT_NE(names, nullptr);
+  EXPECT_EQ(names->world, "uav");
+  ASSERT_EQ(names->state.size(), 6u);  // cell, margins and two sensors
+  EXPECT_EQ(names->state[kEnergyMarginField].unit, "J");
+  EXPECT_EQ(names->actions.size(), 15u);
+  EXPECT_TRUE(names->less_is_better);
+}
+
+TEST(LearnerNodeInCartPole, TellsViewersNoField) {
+  const Experiment experiment = SmallCartPole();
+  const Channels channels = ChannelsWithPrefix("TEST");
+  const auto bus = OpenLcmBus("memq://");
+  int fields = 0;
+  int worlds = 0;
+  bus->Subscribe(channels.scenario, [&](std::span<const std::byte>) { ++fields; });
+  bus->Subscribe(channels.world, [&](std::span<const std::byte>) { ++worlds; });
+  LearnerNode node(experiment, kRunId, *bus, channels);
+  node.Step();
+  while (bus->Poll(0) > 0) {
+  }
+  EXPECT_EQ(fields, 0);
+  EXPECT_EQ(worlds, 1);
 }
 
 TEST_F(LearnerNodeTest, CountsTheAnnouncementsOfOtherRunsOnly) {

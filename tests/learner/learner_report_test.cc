@@ -2,12 +2,45 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace fresco {
 namespace {
+
+Evaluation EvaluationOf(double score, double success) {
+  Evaluation evaluation;
+  evaluation.success = success;
+  evaluation.figures = {score, 1e9};
+  return evaluation;
+}
+
+TEST(TrainingReport, TellsNoScoreBeforeThereIsOne) {
+  learner_status_t status{};
+  TrainingReport{}.WriteTo(status);
+  EXPECT_TRUE(std::isnan(status.score));
+  EXPECT_EQ(status.success, 0);
+  for (const double value : {status.best_score, status.score_bound, status.gap_percent}) {
+    EXPECT_TRUE(std::isnan(value));
+  }
+}
+
+TEST(TrainingReport, TellsTheBestScoreOnceAnEpisodeHasSucceeded) {
+  learner_status_t status{};
+  const Evaluation failed = EvaluationOf(17, 0);
+  TrainingReport{.last_evaluation = failed, .best = BestNetwork{failed, nullptr}}.WriteTo(status);
+  EXPECT_EQ(status.score, 17);
+  EXPECT_EQ(status.success, 0);
+  EXPECT_TRUE(std::isnan(status.best_score));
+  const Evaluation best = EvaluationOf(250, 0.25);
+  TrainingReport{.last_evaluation = failed, .best = BestNetwork{best, nullptr}}.WriteTo(status);
+  EXPECT_EQ(status.score, 17);
+  EXPECT_EQ(status.best_score, 250);
+  TrainingReport{.last_evaluation = best, .best = BestNetwork{best, nullptr}}.WriteTo(status);
+  EXPECT_EQ(status.success, 0.25);
+}
 
 TEST(StarvationWarning, SpeaksAfterFiveSecondsAndThenEveryTen) {
   StarvationWarning warning;

@@ -19,9 +19,8 @@ class RosterFixture : public ::testing::Test {
  protected:
   RosterFixture()
       : experiment_(SmallExperiment()),
-        world_(experiment_.scenario()),
         parameters_(std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1))),
-        ledger_(world_, experiment_.mask_options()) {}
+        ledger_(experiment_.world()) {}
 
   void Write(int64_t orders) {
     for (; orders > 0; --orders) {
@@ -55,7 +54,7 @@ class RosterFixture : public ::testing::Test {
 
   /// The result of an order arrives, from an actor (0: from none that is known).
   void Complete(int64_t index, int64_t now_us, int64_t actor = 0) {
-    ledger_.Add(FlyOrder(world_, experiment_, ledger_.order(index), parameters_, parameters_));
+    ledger_.Add(FlyOrder(experiment_, ledger_.order(index), parameters_, parameters_));
     ASSERT_TRUE(ledger_.IsComplete(index));
     roster_.Completed(index, actor, now_us);
   }
@@ -69,7 +68,6 @@ class RosterFixture : public ::testing::Test {
   }
 
   Experiment experiment_;
-  World world_;
   std::shared_ptr<const Vector> parameters_;
   Ledger ledger_;
   Roster roster_;

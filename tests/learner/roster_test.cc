@@ -7,6 +7,21 @@ namespace {
 
 class RosterTest : public RosterFixture {};
 
+TEST_F(RosterTest, GivesAnActorTwoOrdersForEachOfItsEnvironmentsAndKeepsTheOthersForThoseWhoJoin) {
+  Write(20);
+  Hear(1, kBeginUs, 4);
+  EXPECT_EQ(CountOf(Due(kBeginUs), 1, 0), 8);
+  EXPECT_TRUE(Due(kBeginUs + 1000).empty());
+  Complete(0, kBeginUs + 2000, 1);
+  const std::vector<order_t> next = Due(kBeginUs + 2000);
+  ASSERT_EQ(next.size(), 1u);
+  EXPECT_EQ(next[0].index, 8);
+  Hear(2, kBeginUs + 3000, 3);
+  const std::vector<order_t> joined = Due(kBeginUs + 3000);
+  EXPECT_EQ(joined.size(), 6u);
+  EXPECT_EQ(CountOf(joined, 2, 0), 6);
+}
+
 TEST_F(RosterTest, AssignsNothingBeforeAnActorIsThere) {
   Write(3);
   EXPECT_TRUE(Due(kBeginUs).empty());

@@ -21,20 +21,19 @@ namespace {
 /// an episode that is possible but not the one that was ordered. Nothing in it gives it away.
 class Forger {
  public:
-  /// Subscribes on `bus`, which like `world` and `experiment` must outlive the forger.
-  Forger(const Experiment& experiment, const World& world, Bus& bus, const Channels& channels);
+  /// Subscribes on `bus`, which like `experiment` must outlive the forger.
+  Forger(const Experiment& experiment, Bus& bus, const Channels& channels);
 
  private:
   void Answer(const orders_t& message);
 
   const Experiment* experiment_;
-  const World* world_;
   Bus* bus_;
   Channels channels_;
 };
 
-Forger::Forger(const Experiment& experiment, const World& world, Bus& bus, const Channels& channels)
-    : experiment_(&experiment), world_(&world), bus_(&bus), channels_(channels) {
+Forger::Forger(const Experiment& experiment, Bus& bus, const Channels& channels)
+    : experiment_(&experiment), bus_(&bus), channels_(channels) {
   bus.Subscribe(channels.orders, [this](std::span<const std::byte> bytes) {
     orders_t message{};
     if (Decode(bytes, message) || (bytes.size() > kAuthenticationTagBytes &&
@@ -51,7 +50,7 @@ void Forger::Answer(const orders_t& message) {
     Order order;
     if (FromWire(wire, order)) {
       order.epsilon = 1;
-      SplitResult(*world_, FlyOrder(*world_, *experiment_, order, zero, zero), wire.actor_id,
+      SplitResult(experiment_->world(), FlyOrder(*experiment_, order, zero, zero), wire.actor_id,
                   [&](const transitions_t& part) {
                     MessageBus(*bus_).Publish(channels_.transitions, part, IdentityOf(message));
                   });
@@ -78,16 +77,15 @@ std::unique_ptr<Bus> Authenticated(Bus& inner) {
 
 class WholeRun : public ::testing::Test {
  protected:
-  WholeRun()
-      : experiment_(SmallExperiment()), world_(experiment_.scenario()), expected_(RunInOneLoop(experiment_)) {
+  WholeRun() : experiment_(SmallExperiment()), expected_(RunInOneLoop(experiment_)) {
     spdlog::set_level(spdlog::level::err);
   }
 
   /// A learner as far as it lives in its process's memory.
   struct Learner {
     Learner(WholeRun& test, Bus& bus)
-        : node(test.experiment_, test.world_, kWholeRunId, bus, ChannelsWithPrefix("TEST")),
-          trainer(test.experiment_, test.world_, test.OutputTo(node)) {}
+        : node(test.experiment_, kWholeRunId, bus, ChannelsWithPrefix("TEST")),
+          trainer(test.experiment_, test.OutputTo(node)) {}
     LearnerNode node;
     Trainer trainer;
   };
@@ -100,7 +98,7 @@ class WholeRun : public ::testing::Test {
     Bus& bus = disturbance.authenticated ? *keyed : *lossy;
     std::optional<Forger> forger;
     if (disturbance.forged) {
-      forger.emplace(experiment_, world_, *memory, ChannelsWithPrefix("TEST"));
+      forger.emplace(experiment_, *memory, ChannelsWithPrefix("TEST"));
     }
     std::vector<std::unique_ptr<Actor>> actors;
     for (int i = 0; i < disturbance.actors; ++i) {
@@ -138,7 +136,8 @@ class WholeRun : public ::testing::Test {
     EXPECT_TRUE(learner.trainer.finished()) << learner.node.WaitingFor();
     counters_ = learner.node.counters();
     return {learner.trainer.current(), learner.trainer.progress().updates, 0,
-            learner.trainer.best()->evaluation.figures.average_aoi};
+            learner.trainer.best()->evaluation.score(),
+            learner.trainer.delivered() ? std::optional(learner.trainer.delivered()->score()) : std::nullopt};
   }
 
   TrainerOutput OutputTo(LearnerNode& node) {
@@ -155,13 +154,13 @@ class WholeRun : public ::testing::Test {
 
   void ExpectTheSame(const RunResult& result) {
     EXPECT_EQ(result.updates, expected_.updates);
-    EXPECT_EQ(result.best_average_aoi, expected_.best_average_aoi);
+    EXPECT_EQ(result.best_score, expected_.best_score);
+    EXPECT_EQ(result.delivered_score, expected_.delivered_score);
     ASSERT_EQ(result.weights.size(), expected_.weights.size());
     EXPECT_TRUE(result.weights == expected_.weights);
   }
 
   Experiment experiment_;
-  World world_;
   RunResult expected_;
   BusCounters counters_;
   int64_t resent_episodes_ = 0;
@@ -214,7 +213,7 @@ TEST_F(WholeRun, SaysThatItWaitsAmongProgramsWithAnotherKey) {
   const auto memory = OpenLcmBus("memq://");
   const auto keyed = Authenticated(*memory);
   const Channels channels = ChannelsWithPrefix("TEST");
-  LearnerNode node(experiment_, world_, kWholeRunId, *keyed, channels);
+  LearnerNode node(experiment_, kWholeRunId, *keyed, channels);
   node.WriteOrder({});
   EXPECT_FALSE(node.WaitForNext(0).has_value());
   EXPECT_EQ(node.WaitingFor(), "an actor to join");
@@ -244,6 +243,19 @@ TEST_F(WholeRun, GivesTheSameWeightsWhenTwoHundredActorsJoinAtOnce) {
   // What they all lack at first is sent again as one union, not two hundred times.
   const int64_t first_time = counters_.weights_chunks_sent - counters_.weights_chunks_repeated;
   EXPECT_LT(counters_.weights_chunks_repeated, 4 * first_time);
+}
+
+TEST_F(WholeRun, GivesTheSameWeightsInCartPole) {
+  experiment_ = SmallCartPole();
+  expected_ = RunInOneLoop(experiment_);
+  ASSERT_TRUE(expected_.delivered_score.has_value());
+  for (const int actors : {1, 4}) {
+    ExpectTheSame(Run({.actors = actors}));
+    EXPECT_EQ(counters_.rejected, 0);
+  }
+  ExpectTheSame(Run({.actors = 2, .learner_kills = 3}));
+  ExpectTheSame(
+      Run({.actors = 3, .loss = {0.05, 0.05, 0.1, 0.02, 6}, .one_vanishes = true, .learner_kills = 3}));
 }
 
 TEST_F(WholeRun, GivesTheSameWeightsForPlainDqnWithoutMasksAndTheSchedulesOfThePaper) {

@@ -5,7 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "msgs/world_messages.h"
 #include "tests/msgs/message_samples.h"
+#include "tests/worlds/table_one.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -28,13 +31,14 @@ class Log {
   int64_t utime = 1'700'000'000'000'000;
 };
 
-transitions_t Transitions(int64_t order, int32_t first, int count, int8_t outcome) {
+transitions_t Transitions(int64_t order, int32_t first, int count, int8_t ending) {
   RandomStream stream(9, RandomPurpose::kTest, 0, 0);
-  transitions_t message = TransitionsOf(stream, count, 3);
+  transitions_t message = TransitionsOf(stream, count, 7, 20);
   Stamp(message, kRun, 1);
   message.order_index = order;
   message.first_transition = first;
-  message.outcome = outcome;
+  message.first_field = 0;
+  message.ending = ending;
   message.actor_id = 77;
   return message;
 }
@@ -90,6 +94,89 @@ TEST(LogSummary, TellsRunsEpisodesAndActors) {
   EXPECT_EQ(json["duration_s"], 4.5);
   EXPECT_EQ(json["damaged_bytes"], 7);
   EXPECT_NE(LogSummaryText(log.summary, {}).find("1 whole, 1 partial"), std::string::npos);
+}
+
+/// A UAV's field of 250 sensors: a state of 254 values, in several messages.
+class WideRun {
+ public:
+  WideRun() : world_(Field()) {
+    RandomStream stream(9, RandomPurpose::kTest, 3, 0);
+    for (int64_t index = 0; index < 2; ++index) {
+      Order order;
+      order.index = index;
+      const OrderResult result = RandomResult(world_, order, stream);
+      transitions += result.episode.transitions();
+      SplitResult(world_, result, 77, [&](transitions_t message) {
+        Stamp(message, kRun, 1);
+        messages.push_back(message);
+      });
+    }
+  }
+  world_t Names() const {
+    world_t names = WorldMessages(world_).front();
+    Stamp(names, kRun, 1);
+    return names;
+  }
+
+  std::vector<transitions_t> messages;
+  int64_t transitions = 0;
+
+ private:
+  static Scenario Field() {
+    Scenario scenario = TableOne();
+    scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 250, 1);
+    return scenario;
+  }
+
+  UavWorld world_;
+};
+
+TEST(LogSummary, CountsAStateThatIsInSeveralMessagesOnce) {
+  const WideRun run;
+  ASSERT_GT(static_cast<int64_t>(run.messages.size()), run.transitions);
+  Log log;
+  log.Add("FRESCO_WORLD", run.Names());
+  for (const transitions_t& message : run.messages) {
+    log.Add("FRESCO_TRANSITIONS", message);
+  }
+  log.Add("FRESCO_TRANSITIONS", run.messages.front());
+  log.Add("FRESCO_TRANSITIONS", run.messages[1]);
+  const auto json = log.Json()["runs"][0];
+  EXPECT_EQ(json["episodes_whole"], 2);
+  EXPECT_EQ(json["episodes_partial"], 0);
+  EXPECT_EQ(json["transitions"], run.transitions);
+  EXPECT_EQ(json["transitions_missing"], 0);
+  EXPECT_EQ(json["transitions_repeated"], 1);
+}
+
+TEST(LogSummary, MissesATransitionOfWhichAPartIsMissing) {
+  const WideRun run;
+  for (const size_t lost : {size_t{0}, size_t{1}, run.messages.size() - 1}) {
+    Log log;
+    log.Add("FRESCO_WORLD", run.Names());
+    for (size_t i = 0; i < run.messages.size(); ++i) {
+      if (i != lost) {
+        log.Add("FRESCO_TRANSITIONS", run.messages[i]);
+      }
+    }
+    const auto json = log.Json()["runs"][0];
+    EXPECT_EQ(json["episodes_whole"], 1) << lost;
+    EXPECT_EQ(json["episodes_partial"], 1) << lost;
+    EXPECT_EQ(json["transitions"], run.transitions - 1) << lost;
+    EXPECT_EQ(json["transitions_repeated"], 0) << lost;
+  }
+}
+
+TEST(LogSummary, CountsTheFirstPartsWhereNothingSaysHowManyThereAre) {
+  const WideRun run;
+  Log log;
+  for (const transitions_t& message : run.messages) {
+    log.Add("FRESCO_TRANSITIONS", message);
+  }
+  const auto json = log.Json()["runs"][0];
+  EXPECT_EQ(json["episodes_whole"], 2);
+  EXPECT_EQ(json["transitions"], run.transitions);
+  EXPECT_EQ(json["transitions_repeated"], 0);
 }
 
 TEST(LogSummary, CountsForeignAndDamagedMessages) {

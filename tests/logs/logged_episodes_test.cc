@@ -23,7 +23,7 @@ using Ranges = std::vector<Interval>;
 class LoggedEpisodesTest : public testing::Test {
  protected:
   LoggedEpisodes Open(const LogPaths& paths, std::optional<AuthenticationKey> key = {}) const {
-    return {{paths, std::move(key)}, Identity(live_), live_.world, live_.experiment.mask_options()};
+    return {{paths, std::move(key)}, Identity(live_), live_.world};
   }
 
   LoggedEpisodes OpenLogOf(const std::vector<OwnedEvent>& events) const {
@@ -48,12 +48,41 @@ TEST_F(LoggedEpisodesTest, HandsOutTheEpisodesThatWereFlown) {
   LoggedEpisodes episodes = OpenLogOf(events_);
   ASSERT_EQ(episodes.whole().size(), live_.episodes.size());
   for (size_t i = 3; i < live_.episodes.size(); i += 2) {
-    const Episode episode = episodes.Take(static_cast<int64_t>(i));
-    EXPECT_EQ(episode.actions, live_.episodes[i].actions);
-    EXPECT_EQ(episode.rewards, live_.episodes[i].rewards);
-    EXPECT_EQ(episode.next_masks, live_.episodes[i].next_masks);
-    EXPECT_EQ(episode.outcome, live_.episodes[i].outcome);
+    const CommittedEpisode taken = episodes.Take(static_cast<int64_t>(i));
+    EXPECT_TRUE(SameBits(taken.episode, live_.episodes[i]));
+    EXPECT_EQ(taken.order.index, static_cast<int64_t>(i));
+    EXPECT_EQ(taken.order.seed, live_.orders[i].seed);
   }
+}
+
+TEST_F(LoggedEpisodesTest, HandsOutEpisodesOfCartPoleWithTheirSeeds) {
+  const FinishedRun run(SmallCartPole());
+  WriteLog(folder_.path() / "log", EventsOf(run, Identity(run)));
+  LoggedEpisodes episodes({{folder_.path() / "log"}}, Identity(run), run.world);
+  ASSERT_EQ(episodes.whole().size(), run.episodes.size());
+  std::set<Ending> endings;
+  for (size_t i = 0; i < run.episodes.size(); ++i) {
+    const CommittedEpisode taken = episodes.Take(static_cast<int64_t>(i));
+    EXPECT_TRUE(SameBits(taken.episode, run.episodes[i]));
+    EXPECT_EQ(taken.order.seed, run.orders[i].seed);
+    endings.insert(taken.episode.ending);
+  }
+  EXPECT_EQ(endings, (std::set<Ending>{Ending::kTerminal, Ending::kTruncated}));
+}
+
+TEST_F(LoggedEpisodesTest, TakesNoEpisodeThatAnotherSeedBegins) {
+  const FinishedRun run(SmallCartPole());
+  std::vector<OwnedEvent> events = EventsOf(run, Identity(run));
+  const auto forged = std::find_if(events.begin(), events.end(), [](const OwnedEvent& event) {
+    return event.channel == "FRESCO_TRANSITIONS";
+  });
+  transitions_t message{};
+  ASSERT_TRUE(Decode(forged->message, message));
+  ++message.seed;
+  Encode(message, forged->message);
+  WriteLog(folder_.path() / "log", events);
+  const LoggedEpisodes episodes({{folder_.path() / "log"}}, Identity(run), run.world);
+  EXPECT_EQ(episodes.Missing(), (Ranges{{message.order_index, message.order_index}}));
 }
 
 TEST_F(LoggedEpisodesTest, NamesWhatIsMissingAsRanges) {
@@ -73,7 +102,7 @@ TEST_F(LoggedEpisodesTest, PutsTogetherWhatSeveralRecordersHeard) {
   EXPECT_FALSE(Open({folder_.path() / "even"}).Missing().empty());
   LoggedEpisodes both = Open({folder_.path() / "odd", folder_.path() / "even"});
   EXPECT_EQ(both.whole().size(), live_.episodes.size());
-  EXPECT_EQ(both.Take(7).actions, live_.episodes[7].actions);
+  EXPECT_EQ(both.Take(7).episode.actions, live_.episodes[7].actions);
 }
 
 TEST_F(LoggedEpisodesTest, KnowsTrainingFromEvaluationByTheOrders) {
@@ -140,7 +169,7 @@ TEST_F(LoggedEpisodesTest, HoldsNoMoreThanBoundedPiecesWhateverTheLogHolds) {
   });
   transitions_t message{};
   ASSERT_TRUE(Decode(piece->message, message));
-  message.outcome = 0;
+  message.ending = 0;
   std::vector<OwnedEvent> flood(20'000);
   for (size_t i = 0; i < flood.size(); ++i) {
     message.order_index = static_cast<int64_t>(i) * 1'000'000;
@@ -150,7 +179,7 @@ TEST_F(LoggedEpisodesTest, HoldsNoMoreThanBoundedPiecesWhateverTheLogHolds) {
   flood.insert(flood.end(), events_.begin(), events_.end());
   LoggedEpisodes episodes = OpenLogOf(flood);
   EXPECT_EQ(episodes.Missing(), Ranges{});
-  EXPECT_EQ(episodes.Take(30).actions, live_.episodes[30].actions);
+  EXPECT_EQ(episodes.Take(30).episode.actions, live_.episodes[30].actions);
 }
 
 TEST_F(LoggedEpisodesTest, KnowsTheNetworksByTheirCrc) {
@@ -188,11 +217,12 @@ TEST_F(LoggedEpisodesTest, FindsTheRunsOfALogAndTheirConfiguration) {
 
 TEST(LoggedRuns, OfAnotherReleaseAreNoRunsOfThisOne) {
   LoggedRun run;
-  ExpectOrdersOfThisRelease(run);  // nothing was recorded that contradicts
+  ExpectMessagesOfThisRelease(run);  // nothing was recorded that contradicts
   run.protocol_version = kProtocolVersion;
-  ExpectOrdersOfThisRelease(run);
+  ExpectMessagesOfThisRelease(run);
   run.protocol_version = kProtocolVersion - 1;
-  EXPECT_THAT([&] { ExpectOrdersOfThisRelease(run); }, ThrowsMessage<Error>(HasSubstr("protocol version 3")));
+  EXPECT_THAT([&] { ExpectMessagesOfThisRelease(run); },
+              ThrowsMessage<Error>(HasSubstr("protocol version " + std::to_string(kProtocolVersion - 1))));
 }
 
 }  // namespace

@@ -28,10 +28,9 @@ class RetrainingTest : public testing::Test {
                                       Use use = Use::kSameRun, bool strict = false) {
     const auto path = folder_.path() / "log";
     WriteLog(path, events);
-    episodes_ = std::make_unique<LoggedEpisodes>(LogSource{{path}}, Identity(live_), live_.world,
-                                                 live_.experiment.mask_options());
+    episodes_ = std::make_unique<LoggedEpisodes>(LogSource{{path}}, Identity(live_), live_.world);
     auto retraining = std::make_unique<Retraining>(
-        experiment, live_.world, *episodes_, use, strict,
+        experiment, *episodes_, use, strict,
         [this](const Trainer&, const Evaluation& evaluation) { evaluations_.push_back(evaluation); });
     while (retraining->Step()) {
     }
@@ -156,10 +155,9 @@ TEST_F(RetrainingTest, LeavesOutExperienceThatItsMasksForbid) {
   FinishedRun unmasked(Settings{{"agent.coverage_mask", "false"}});
   const auto path = folder_.path() / "log";
   WriteLog(path, EventsOf(unmasked, Identity(unmasked)));
-  LoggedEpisodes episodes({{path}}, Identity(unmasked), unmasked.world, unmasked.experiment.mask_options());
+  LoggedEpisodes episodes({{path}}, Identity(unmasked), unmasked.world);
   const Experiment masked = SmallExperiment({{"schedule.episodes", "3"}});
-  Retraining retraining(masked, unmasked.world, episodes, Use::kExperience, false,
-                        [](const Trainer&, const Evaluation&) {});
+  Retraining retraining(masked, episodes, Use::kExperience, false, [](const Trainer&, const Evaluation&) {});
   const auto train = [&] {
     while (retraining.Step()) {
     }
@@ -167,6 +165,72 @@ TEST_F(RetrainingTest, LeavesOutExperienceThatItsMasksForbid) {
   // Random schedules of sensors out of reach are in nearly every episode.
   EXPECT_THAT(train, ThrowsMessage<Error>(HasSubstr("has run out")));
   EXPECT_GT(retraining.counts().left_out, 30);
+}
+
+/// Trains in CartPole from the log of `run`.
+class CartPoleRetraining {
+ public:
+  CartPoleRetraining(const FinishedRun& run, const std::vector<OwnedEvent>& events,
+                     const Experiment& experiment, Use use)
+      : episodes_(Written(folder_, events), Identity(run), run.world),
+        retraining_(experiment, episodes_, use, false, [](const Trainer&, const Evaluation&) {}) {
+    while (retraining_.Step()) {
+    }
+  }
+  const Retraining& result() const { return retraining_; }
+
+ private:
+  static LogSource Written(const TemporaryFolder& folder, const std::vector<OwnedEvent>& events) {
+    WriteLog(folder.path() / "log", events);
+    return {{folder.path() / "log"}};
+  }
+
+  const TemporaryFolder folder_;
+  LoggedEpisodes episodes_;
+  Retraining retraining_;
+};
+
+void ExpectTheWeightsOf(const FinishedRun& live, const Retraining& retraining) {
+  EXPECT_TRUE(retraining.trainer().current() == live.trainer.current());
+  EXPECT_EQ(retraining.counts().different_versions, 0);
+  ASSERT_TRUE(retraining.trainer().delivered());
+  EXPECT_EQ(retraining.trainer().delivered()->figures, live.trainer.delivered()->figures);
+}
+
+TEST(CartPoleRetrainingTest, GivesTheWeightsOfTheLiveRun) {
+  const FinishedRun live(SmallCartPole());
+  const CartPoleRetraining retraining(live, EventsOf(live, Identity(live)), live.experiment, Use::kSameRun);
+  ExpectTheWeightsOf(live, retraining.result());
+  EXPECT_EQ(retraining.result().counts().flown_again, 0);
+  EXPECT_EQ(retraining.result().counts().recorded_episodes, live.orders.size());
+}
+
+TEST(CartPoleRetrainingTest, FliesAgainWhatTheLogMisses) {
+  const FinishedRun live(SmallCartPole());
+  std::vector<OwnedEvent> events = EventsOf(live, Identity(live));
+  std::erase_if(events, [count = 0](const OwnedEvent& event) mutable {
+    return IsTransitions(event) && ++count % 3 == 0;
+  });
+  const CartPoleRetraining retraining(live, events, live.experiment, Use::kSameRun);
+  ExpectTheWeightsOf(live, retraining.result());
+  EXPECT_EQ(retraining.result().counts().flown_again, live.orders.size() / 3);
+}
+
+/// Each recorded episode begins where its own seed says, which is not the one of the order that it is used
+/// for.
+TEST(CartPoleRetrainingTest, TrainsAnotherAgentOnTheRecordedExperience) {
+  const FinishedRun live(SmallCartPole());
+  const Experiment other = SmallCartPole({{"schedule.seed", "6"}, {"agent.hidden_layers", "9"}});
+  const CartPoleRetraining retraining(live, EventsOf(live, Identity(live)), other, Use::kExperience);
+  const Retraining::Counts& counts = retraining.result().counts();
+  EXPECT_EQ(counts.recorded_episodes, 50);
+  EXPECT_EQ(counts.left_out, 0);
+  EXPECT_GT(counts.evaluations_flown, 0);
+  int64_t transitions = 0;
+  for (size_t i = 0; i < live.orders.size(); ++i) {
+    transitions += live.orders[i].kind == OrderKind::kTrain ? live.episodes[i].transitions() : 0;
+  }
+  EXPECT_EQ(retraining.result().trainer().progress().transitions, transitions);
 }
 
 TEST_F(RetrainingTest, RefusesExperienceThatIsTooShort) {

@@ -5,6 +5,7 @@
 #include "core/bytes.h"
 #include "logs/event_log_writer.h"
 #include "msgs/weights_codec.h"
+#include "msgs/world_messages.h"
 #include "tests/msgs/message_samples.h"
 
 namespace fresco {
@@ -43,6 +44,9 @@ std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity) {
   for (const run_t& part : Announcement(run.experiment.Text(), kMaximumPartBytes)) {
     events.Add("FRESCO_RUN", part);
   }
+  for (const world_t& names : WorldMessages(run.world)) {
+    events.Add("FRESCO_WORLD", names);
+  }
   AddVersions("FRESCO_WEIGHTS_CURRENT", run.current_versions, events);
   AddVersions("FRESCO_WEIGHTS_TARGET", run.target_versions, events);
   for (size_t i = 0; i < run.episodes.size(); ++i) {
@@ -50,7 +54,7 @@ std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity) {
     orders.order_count = 1;
     orders.orders = {ToWire(run.orders[i], 5, 0)};
     events.Add("FRESCO_ORDERS", orders);
-    SplitResult(run.world, ResultOf(run.orders[i].index, run.episodes[i]), 5,
+    SplitResult(run.world, ResultOf(run.orders[i], run.episodes[i]), 5,
                 [&](const transitions_t& message) { events.Add("FRESCO_TRANSITIONS", message); });
   }
   return std::move(events).events();

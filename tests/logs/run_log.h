@@ -21,8 +21,9 @@ inline RunIdentity Identity(const RecordedRun& run, int64_t run_id = 77) {
   return {run_id, run.experiment.hash()};
 }
 
-/// Returns everything that the run's learner and actor would have sent, in order: the configuration, orders,
-/// episodes in messages of transitions, and the first chunk of each version of the networks.
+/// Returns everything that the run's learner and actor would have sent, in order: the configuration, the
+/// names of the world, orders, episodes in messages of transitions, and the first chunk of each version of
+/// the networks.
 std::vector<OwnedEvent> EventsOf(const RecordedRun& run, RunIdentity identity);
 
 void WriteLog(const std::filesystem::path& path, const std::vector<OwnedEvent>& events);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "msgs/experiment.h"
+#include "tests/msgs/uav_world_of.h"
 #include "tests/support/error_of.h"
 
 namespace fresco {
@@ -124,7 +125,7 @@ TEST(ConfigurationError, NamesBothOfTwoAlternativesGiven) {
 TEST(ConfigurationError, SaysThatTheStopIsOutOfReach) {
   EXPECT_THAT(Refusal("scenario { slots: 19 }"),
               AllOf(HasSubstr("scenario.slots: 19"), HasSubstr("scenario.stop"), HasSubstr("19 moves")));
-  EXPECT_EQ(Experiment::Parse("scenario { slots: 20 }", "my").scenario().slots, 20);
+  EXPECT_EQ(UavWorldOf(Experiment::Parse("scenario { slots: 20 }", "my")).scenario().slots, 20);
   EXPECT_THAT(Refusal("scenario { initial_energy_j: 1000 }"), HasSubstr("scenario.initial_energy_j: 1000"));
 }
 
@@ -137,7 +138,8 @@ TEST(ConfigurationError, AllowsAsManySensorsAsFitAFrame) {
   for (int i = 0; i < 250; ++i) {
     sensors += "sensor { x_m: 1 }\n";
   }
-  EXPECT_EQ(Experiment::Parse("scenario { " + sensors + "}", "my").scenario().sensors.size(), 250u);
+  EXPECT_EQ(UavWorldOf(Experiment::Parse("scenario { " + sensors + "}", "my")).scenario().sensors.size(),
+            250u);
   EXPECT_THAT(Refusal("scenario { " + sensors + "sensor {} }"),
               AllOf(HasSubstr("scenario.sensor: a count of 251"), HasSubstr("1 to 250")));
   EXPECT_THAT(Refusal("scenario { random_sensors { count: 251 } }"),
@@ -162,7 +164,7 @@ TEST(ConfigurationSize, OfTheGridTimesTheSensorsIsBounded) {
               AllOf(HasSubstr("my.textproto: scenario.grid: 1000 x 1000 cells and 11 sensors"),
                     HasSubstr("at most 10000000")));
   const Experiment largest = Experiment::Parse("scenario { " + grid + "random_sensors { count: 10 } }", "my");
-  EXPECT_EQ(largest.scenario().sensors.size(), 10u);
+  EXPECT_EQ(UavWorldOf(largest).scenario().sensors.size(), 10u);
   EXPECT_THAT(Refusal("scenario { grid { columns: 1000000000 rows: 1000000000 } }"),
               HasSubstr("scenario.grid.columns: 1000000000 is out of range"));
 }

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/msgs/uav_world_of.h"
+
 namespace fresco {
 namespace {
 
 TEST(Experiment, TakesTablesIAndIIWhereNothingIsSaid) {
   const Experiment experiment = Experiment::Parse("", "nothing");
-  const Scenario& scenario = experiment.scenario();
+  const Scenario& scenario = UavWorldOf(experiment).scenario();
   EXPECT_EQ(scenario.columns, 20);
   EXPECT_EQ(scenario.rows, 20);
   EXPECT_EQ(scenario.cell_m, 25);
@@ -53,7 +55,7 @@ TEST(Experiment, ReadsItsOwnTextAsTheSame) {
   const Experiment again = Experiment::Parse(experiment.Text(), "b");
   EXPECT_EQ(again.Text(), experiment.Text());
   EXPECT_EQ(again.hash(), experiment.hash());
-  EXPECT_EQ(again.scenario().stop, (Cell{0, 5}));
+  EXPECT_EQ(UavWorldOf(again).scenario().stop, (Cell{0, 5}));
 }
 
 TEST(Experiment, HashIsThatOfWhatDecidesTheWeights) {
@@ -61,7 +63,8 @@ TEST(Experiment, HashIsThatOfWhatDecidesTheWeights) {
   EXPECT_EQ(Experiment::Parse("run { actors: 7 lcm_url: \"memq://\" }", "a").hash(), hash);
   EXPECT_EQ(Experiment::Parse("scenario { slots: 70 }", "a").hash(), hash);  // the default, said aloud
   for (const std::string text : {"scenario { slots: 71 }", "agent { discount: 0.9 }", "schedule { seed: 2 }",
-                                 "schedule { ladder {} }", "scenario { sensor { x_m: 1 y_m: 2 } }"}) {
+                                 "schedule { ladder {} }", "scenario { sensor { x_m: 1 y_m: 2 } }",
+                                 "cartpole {}", "schedule { evaluation_episodes: 2 }"}) {
     EXPECT_NE(Experiment::Parse(text, "a").hash(), hash) << text;
   }
 }

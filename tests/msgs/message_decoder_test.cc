@@ -60,7 +60,8 @@ void ExpectSeen(const transitions_t& message, const Bytes& bytes) {
   EXPECT_EQ(header->order_index, message.order_index);
   EXPECT_EQ(header->actor_id, message.actor_id);
   EXPECT_EQ(header->first_transition, message.first_transition);
-  EXPECT_EQ(header->ends_episode, message.outcome != 0);
+  EXPECT_EQ(header->first_field, message.first_field);
+  EXPECT_EQ(header->ends_episode, message.ending != 0);
 }
 
 TEST(PeekTransitions, SeesWhatTheDecoderDecodes) {
@@ -90,7 +91,7 @@ TEST(PeekTransitions, RefusesCountsThatDoNotFitTheSize) {
   RandomStream stream(8, RandomPurpose::kTest, 4, 0);
   const Bytes bytes = Encoded(RandomMessage<transitions_t>(stream));
   for (const size_t offset : {32u, 36u, 40u, 44u}) {  // of the four counts
-    for (int count = -2; count < 140; ++count) {
+    for (int count = -2; count < 520; ++count) {
       Bytes forged(bytes.begin(), bytes.end() - static_cast<ptrdiff_t>(kTrailerBytes));
       for (size_t byte = 0; byte < 4; ++byte) {
         forged[offset + byte] = static_cast<std::byte>(static_cast<uint32_t>(count) >> (24 - 8 * byte));

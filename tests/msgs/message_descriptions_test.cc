@@ -107,7 +107,7 @@ TEST(Description, KnowsTheBytesOfAMessageByItsCounts) {
     const auto message = RandomMessage<transitions_t>(stream);
     EXPECT_EQ(Description<transitions_t>::EncodedBytes(
                   static_cast<size_t>(message.transition_count), static_cast<size_t>(message.state_count),
-                  static_cast<size_t>(message.sensor_count), static_cast<size_t>(message.mask_size)),
+                  static_cast<size_t>(message.field_count), static_cast<size_t>(message.mask_size)),
               static_cast<size_t>(message.getEncodedSize()));
   }
 }

@@ -104,19 +104,15 @@ std::vector<run_t> Announcement(const std::string& configuration, size_t part_by
   return parts;
 }
 
-transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors) {
+transitions_t TransitionsOf(RandomStream& stream, int transitions, int fields, int actions) {
   auto message = WithNumbers<transitions_t>(stream);
   message.transition_count = transitions;
   message.state_count = transitions + 1;
-  message.sensor_count = sensors;
-  message.mask_size = (5 * (sensors + 1) + 7) / 8;
-  for (auto* values : {&message.column, &message.row, &message.time_margin}) {
-    Fill(stream, *values, message.state_count);
-  }
-  Fill(stream, message.energy_margin_j, message.state_count);
-  message.aoi.resize(static_cast<size_t>(message.state_count));
-  for (auto& aoi : message.aoi) {
-    Fill(stream, aoi, sensors);
+  message.field_count = fields;
+  message.mask_size = MaskSize(actions);
+  message.state.resize(static_cast<size_t>(message.state_count));
+  for (auto& state : message.state) {
+    Fill(stream, state, fields);
   }
   Fill(stream, message.action, transitions);
   Fill(stream, message.reward, transitions);
@@ -142,6 +138,14 @@ learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, i
   auto message = WithNumbers<learner_status_t>(stream);
   message.waiting_for = RandomText(stream, waiting_for_length);
   message.warning = RandomText(stream, warning_length);
+  return message;
+}
+
+world_t WorldOf(RandomStream& stream, int world_length, int success_length, int entries_length) {
+  auto message = WithNumbers<world_t>(stream);
+  message.world = RandomText(stream, world_length);
+  message.success = RandomText(stream, success_length);
+  message.entries = RandomText(stream, entries_length);
   return message;
 }
 
@@ -172,13 +176,18 @@ void Randomise(RandomStream& stream, run_t& message) {
   message = RunOf(stream, Below(stream, kMaximumPartBytes + 1));
 }
 void Randomise(RandomStream& stream, transitions_t& message) {
-  message = TransitionsOf(stream, 1 + Below(stream, 9), 1 + Below(stream, 20));
+  message = TransitionsOf(stream, 1 + Below(stream, 9), 1 + Below(stream, 12), 1 + Below(stream, 100));
 }
 void Randomise(RandomStream& stream, actor_status_t& message) {
   message = ActorStatusOf(stream, Below(stream, 33), Below(stream, 33), Below(stream, 65));
 }
 void Randomise(RandomStream& stream, learner_status_t& message) {
   message = LearnerStatusOf(stream, Below(stream, 241), Below(stream, 241));
+}
+void Randomise(RandomStream& stream, world_t& message) {
+  message = WorldOf(stream, Below(stream, world_t::MAXIMUM_WORLD_BYTES + 1),
+                    Below(stream, world_t::MAXIMUM_SUCCESS_BYTES + 1),
+                    Below(stream, world_t::MAXIMUM_ENTRIES_BYTES + 1));
 }
 void Randomise(RandomStream& stream, scenario_t& message) {
   message = ScenarioOf(stream, Below(stream, kMaximumSensorsPerScenario + 1));
@@ -188,16 +197,14 @@ void Randomise(RandomStream& stream, flight_t& message) {
                      Below(stream, kMaximumPolicyBytes + 1));
 }
 
-OrderResult RandomResult(const World& world, int64_t order_index, MaskOptions mask, RandomStream& stream) {
-  EpisodeRecorder recorder(world, {});
-  OrderResult result{order_index, 0, {}, {}};
-  std::vector<uint8_t> allowed(static_cast<size_t>(world.actions()));
-  while (recorder.episode().outcome == Outcome::kFlying) {
-    recorder.environment().WriteMask(mask, allowed);
+OrderResult RandomResult(const World& world, const Order& order, RandomStream& stream) {
+  EpisodeRecorder recorder(world, order.seed);
+  OrderResult result{order.index, order.seed, 0, 0, {}, {}};
+  while (!recorder.ended()) {
     uint32_t action = 0;
     do {
       action = stream.NextBelow(static_cast<uint32_t>(world.actions()));
-    } while (allowed[action] == 0);
+    } while (recorder.mask()[action] == 0);
     recorder.Step(static_cast<int>(action));
     result.td_errors.push_back(static_cast<float>(stream.NextUniform()));
   }
@@ -215,19 +222,24 @@ void MakeLargest(RandomStream& stream, run_t& message) {
   message = RunOf(stream, kMaximumPartBytes);
 }
 void MakeLargest(RandomStream& stream, transitions_t& message) {
-  constexpr int kSensors = 3;
+  constexpr int kFields = 7;
+  constexpr int kActions = 20;
   int transitions = 1;
-  while (static_cast<size_t>(TransitionsOf(stream, transitions + 1, kSensors).getEncodedSize()) <=
+  while (static_cast<size_t>(TransitionsOf(stream, transitions + 1, kFields, kActions).getEncodedSize()) <=
          kMaximumEncodedBytes) {
     ++transitions;
   }
-  message = TransitionsOf(stream, transitions, kSensors);
+  message = TransitionsOf(stream, transitions, kFields, kActions);
 }
 void MakeLargest(RandomStream& stream, actor_status_t& message) {
   message = ActorStatusOf(stream, kMaximumHeldVersions, kMaximumMissingRanges, kMaximumHostBytes);
 }
 void MakeLargest(RandomStream& stream, learner_status_t& message) {
   message = LearnerStatusOf(stream, kMaximumWaitingForBytes, kMaximumWarningBytes);
+}
+void MakeLargest(RandomStream& stream, world_t& message) {
+  message = WorldOf(stream, world_t::MAXIMUM_WORLD_BYTES, world_t::MAXIMUM_SUCCESS_BYTES,
+                    world_t::MAXIMUM_ENTRIES_BYTES);
 }
 void MakeLargest(RandomStream& stream, scenario_t& message) {
   message = ScenarioOf(stream, kMaximumSensorsPerScenario);

@@ -21,6 +21,7 @@ void Randomise(RandomStream& stream, run_t& message);
 void Randomise(RandomStream& stream, transitions_t& message);
 void Randomise(RandomStream& stream, actor_status_t& message);
 void Randomise(RandomStream& stream, learner_status_t& message);
+void Randomise(RandomStream& stream, world_t& message);
 void Randomise(RandomStream& stream, scenario_t& message);
 void Randomise(RandomStream& stream, flight_t& message);
 
@@ -32,6 +33,7 @@ void MakeLargest(RandomStream& stream, run_t& message);
 void MakeLargest(RandomStream& stream, transitions_t& message);
 void MakeLargest(RandomStream& stream, actor_status_t& message);
 void MakeLargest(RandomStream& stream, learner_status_t& message);
+void MakeLargest(RandomStream& stream, world_t& message);
 void MakeLargest(RandomStream& stream, scenario_t& message);
 void MakeLargest(RandomStream& stream, flight_t& message);
 
@@ -53,18 +55,18 @@ Message RandomMessage(RandomStream& stream) {
 orders_t OrdersOf(RandomStream& stream, int orders);
 weights_t WeightsOf(RandomStream& stream, int values);
 run_t RunOf(RandomStream& stream, int part_bytes);
-transitions_t TransitionsOf(RandomStream& stream, int transitions, int sensors);
+transitions_t TransitionsOf(RandomStream& stream, int transitions, int fields, int actions);
 actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int host_length);
 learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length);
+world_t WorldOf(RandomStream& stream, int world_length, int success_length, int entries_length);
 scenario_t ScenarioOf(RandomStream& stream, int sensors);
 flight_t FlightOf(RandomStream& stream, int sensors, int policy_length);
 
 /// A configuration as a learner announces it, in parts of at most so many bytes.
 std::vector<run_t> Announcement(const std::string& configuration, size_t part_bytes);
 
-/// The result of an order whose episode takes random actions among those that `mask` allows. It records
-/// masks that allow everything.
-OrderResult RandomResult(const World& world, int64_t order_index, MaskOptions mask, RandomStream& stream);
+/// The result of an order whose episode takes random actions among those that are allowed.
+OrderResult RandomResult(const World& world, const Order& order, RandomStream& stream);
 
 /// Calls visit(Message{}) for every type of message that has a channel, in the order of MessageTypes.
 template <class Visitor>

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "msgs/channels.h"
+#include "tests/msgs/uav_world_of.h"
 #include "tests/support/error_of.h"
 
 namespace fresco {
@@ -46,7 +47,7 @@ TEST(Settings, ReachNestedFields) {
   EXPECT_EQ(experiment.agent().linear().final(), 0.00001);
   EXPECT_FALSE(experiment.agent().has_exponential());
   EXPECT_EQ(experiment.agent().adam().beta1(), 0.8);
-  EXPECT_EQ(experiment.scenario().columns, 30);
+  EXPECT_EQ(UavWorldOf(experiment).scenario().columns, 30);
   EXPECT_TRUE(experiment.agent().double_dqn());
 }
 
@@ -58,7 +59,7 @@ TEST(Settings, ReplaceWhatTheTextSaysAndTheLastOneCounts) {
                                      text);
   EXPECT_THAT(experiment.agent().hidden_layers(), ElementsAre(64, 32));
   EXPECT_EQ(experiment.schedule().seed(), 7u);
-  EXPECT_NEAR(experiment.scenario().coverage_radius_m, 100, 0.01);
+  EXPECT_NEAR(UavWorldOf(experiment).scenario().coverage_radius_m, 100, 0.01);
 }
 
 TEST(Settings, TakeRepeatedValuesSeparatedByCommas) {
@@ -69,10 +70,10 @@ TEST(Settings, TakeRepeatedValuesSeparatedByCommas) {
 TEST(Settings, ReachEntriesByTheirIndex) {
   const Experiment experiment =
       With({"scenario.sensor[1].x_m=30", "scenario.sensor[0].weight=5"}, kTwoSensors);
-  EXPECT_EQ(experiment.scenario().sensors[0].x_m, 1);
-  EXPECT_EQ(experiment.scenario().sensors[0].weight, 5);
-  EXPECT_EQ(experiment.scenario().sensors[1].x_m, 30);
-  EXPECT_EQ(experiment.scenario().sensors[1].y_m, 4);
+  EXPECT_EQ(UavWorldOf(experiment).scenario().sensors[0].x_m, 1);
+  EXPECT_EQ(UavWorldOf(experiment).scenario().sensors[0].weight, 5);
+  EXPECT_EQ(UavWorldOf(experiment).scenario().sensors[1].x_m, 30);
+  EXPECT_EQ(UavWorldOf(experiment).scenario().sensors[1].y_m, 4);
 }
 
 TEST(Settings, RefuseIndexesThatAreNotThere) {
@@ -102,7 +103,8 @@ TEST(Settings, NameAnUnknownFieldAndTheKnownOnes) {
   EXPECT_THAT(ErrorOfSetting("agent.bach_size=3"),
               AllOf(HasSubstr("--set agent.bach_size"), HasSubstr("batch_size")));
   EXPECT_THAT(ErrorOfSetting("nothing=3"),
-              AllOf(HasSubstr("nothing"), HasSubstr("scenario, agent, schedule, run")));
+              AllOf(HasSubstr("nothing"), HasSubstr(" has: scenario, cartpole, "),
+                    HasSubstr(", agent, schedule, run")));
   EXPECT_THAT(ErrorOfSetting("agent..x=3"), HasSubstr("--set agent..x"));
   EXPECT_THAT(ErrorOfSetting("schedule.seed.x=3"), HasSubstr("--set schedule.seed.x"));
 }

@@ -165,6 +165,7 @@ TEST(HostileString, IsRejectedWhereItsLengthIsAbsurd) {
   ExpectStringsOfAbsurdLengthRejected(ActorStatusOf(stream, 3, 3, 0), &actor_status_t::host);
   ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
   ExpectStringsOfAbsurdLengthRejected(FlightOf(stream, 4, 0), &flight_t::policy);
+  ExpectStringsOfAbsurdLengthRejected(WorldOf(stream, 0, 0, 0), &world_t::entries);
 }
 
 template <class Message>
@@ -186,6 +187,7 @@ TEST(HostileString, HasOneNulAtItsEnd) {
   ExpectOneNulAtTheEndOf(ActorStatusOf(stream, 2, 1, 0), &actor_status_t::host);
   ExpectOneNulAtTheEndOf(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
   ExpectOneNulAtTheEndOf(FlightOf(stream, 3, 0), &flight_t::policy);
+  ExpectOneNulAtTheEndOf(WorldOf(stream, 0, 0, 0), &world_t::entries);
 }
 
 TEST(HostileString, IsRefusedWhereItsMessageIsTooLargeToBeEncodedAgain) {

@@ -87,7 +87,7 @@ TEST(CostToGo, IsTheLeastCostOfAllFlightsForOneSensor) {
     if (scenario.slots > 6) {
       continue;
     }
-    const World world(scenario);
+    const UavWorld world(scenario);
     const PlannerProblem problem(world);
     const SlotCells slot_cells(problem, meter);
     const WholePrices prices = RandomPrices(problem, slot_cells, index);

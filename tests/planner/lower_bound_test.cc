@@ -75,7 +75,7 @@ class TinyProblem {
     }
   }
 
-  World world_;
+  UavWorld world_;
   PlannerProblem problem_;
   ExhaustiveSearch exhaustive_;
   double units_per_weight_ = 1;
@@ -239,7 +239,7 @@ TEST(PriceAscent, RaisesTheBoundAtPricesThatSumToNothing) {
   double priced = 0;
   for (uint32_t index = 0; index < 60; ++index) {
     SCOPED_TRACE(index);
-    const World world(TinyScenario(index));
+    const UavWorld world(TinyScenario(index));
     const PlannerProblem problem(world);
     const SlotCells slot_cells(problem, meter);
     PriceAscent ascent(problem, slot_cells, problem.maximum_aoi(), meter);

@@ -14,10 +14,10 @@
 namespace fresco {
 namespace {
 
-void ExpectHolds(const World& world, const Plan& plan, double optimum) {
+void ExpectHolds(const UavWorld& world, const Plan& plan, double optimum) {
   constexpr double kRounding = 1e-9;
   const double found = Figures(world, plan.flight).average_aoi;
-  EXPECT_TRUE(plan.flight.arrived());
+  EXPECT_TRUE(Arrived(plan.flight));
   EXPECT_GE(ResidualEnergy(world, plan.flight), 0);
   EXPECT_GE(plan.lower_bound_average_aoi, 1 - kRounding);  // an AoI is never below 1
   EXPECT_LE(plan.lower_bound_average_aoi, optimum + kRounding);
@@ -52,7 +52,7 @@ struct Stopper {
 
 // So few labels a slot that the optimum's are dropped on the way: the bound has to remember them.
 TEST(PlannerProgress, ClaimsNoMoreThanIsProvedWhereLabelsAreDropped) {
-  const World world(SquareField(14, 50, {7, 0}, {7, 13}, RandomSensors(14, 14, 25, 3, 1)));
+  const UavWorld world(SquareField(14, 50, {7, 0}, {7, 13}, RandomSensors(14, 14, 25, 3, 1)));
   const Plan plan = PlanOptimally(world);
   const int64_t optimum = Figures(world, plan.flight).total_aoi;  // in the problem's units, weights being 1
   int64_t largest_bound = 0;
@@ -71,7 +71,7 @@ TEST(PlannerProgress, ClaimsNoMoreThanIsProvedWhereLabelsAreDropped) {
   EXPECT_LE(largest_bound, optimum);
 }
 
-Plan PlanUntilCall(const World& world, int last, Stopper* stopper) {
+Plan PlanUntilCall(const UavWorld& world, int last, Stopper* stopper) {
   *stopper = {};
   stopper->last = last;
   return PlanOptimally(world, stopper->Options());
@@ -83,7 +83,7 @@ TEST(PlannerStopped, AtAnyCallItHasAFlightAndATrueBoundAndAsksNoMore) {
   for (uint32_t index = 0; index < 200; ++index) {
     SCOPED_TRACE(index);
     const Scenario scenario = TinyScenario(index);
-    const World world(scenario);
+    const UavWorld world(scenario);
     const double optimum = ExhaustiveSearch(scenario).LeastAverageAoi();
     Stopper stopper;
     PlanUntilCall(world, 0, &stopper);
@@ -106,7 +106,7 @@ Scenario MediumScenario(int sensors, double radius_m) {
 }
 
 TEST(PlannerStopped, AsksByWorkWhileTablesAreBuiltToo) {
-  const World world(MediumScenario(3, 50));
+  const UavWorld world(MediumScenario(3, 50));
   Stopper stopper;
   const Plan whole = PlanUntilCall(world, 0, &stopper);
   ASSERT_TRUE(whole.optimal);
@@ -125,7 +125,7 @@ TEST(PlannerStopped, AsksByWorkWhileTablesAreBuiltToo) {
 }
 
 TEST(PlannerStopped, AsksInsideWideSlots) {
-  const World world(MediumScenario(8, 90));
+  const UavWorld world(MediumScenario(8, 90));
   Stopper stopper;
   PlannerOptions options = stopper.Options();
   const auto count = options.keep_going;
@@ -135,14 +135,14 @@ TEST(PlannerStopped, AsksInsideWideSlots) {
   const Plan plan = PlanOptimally(world, options);
   EXPECT_TRUE(stopper.asked_twice_in_a_slot);
   EXPECT_FALSE(plan.optimal);
-  EXPECT_TRUE(plan.flight.arrived());
+  EXPECT_TRUE(Arrived(plan.flight));
 }
 
 // Tables of gigabytes, were they all wanted.
 TEST(PlannerStopped, HugeScenariosStopWhileTheyAreSetUp) {
   Scenario scenario = SquareField(60, 300, {0, 0}, {59, 59}, RandomSensors(60, 60, 25, 40, 1));
   scenario.initial_energy_j = 60000;
-  const World world(scenario);
+  const UavWorld world(scenario);
   for (const int last : {1, 2, 5}) {
     SCOPED_TRACE(last);
     Stopper stopper;
@@ -150,7 +150,7 @@ TEST(PlannerStopped, HugeScenariosStopWhileTheyAreSetUp) {
     EXPECT_EQ(stopper.calls, last);
     EXPECT_EQ(stopper.calls_before_search, last);
     EXPECT_FALSE(plan.optimal);
-    EXPECT_TRUE(plan.flight.arrived());
+    EXPECT_TRUE(Arrived(plan.flight));
     EXPECT_EQ(plan.lower_bound_total_aoi, 40.0 * 300);  // all that is known yet: 1 in every slot
     EXPECT_EQ(plan.labels, 0);
   }
@@ -161,7 +161,7 @@ TEST(PlannerStarved, ProvesWhatItsMemoryAllows) {
   for (uint32_t index = 0; index < 120; ++index) {
     SCOPED_TRACE(index);
     const Scenario scenario = TinyScenario(index);
-    const World world(scenario);
+    const UavWorld world(scenario);
     const double optimum = ExhaustiveSearch(scenario).LeastAverageAoi();
     for (int64_t bytes = 512; bytes <= 65536; bytes *= 2) {
       const Plan plan = PlanOptimally(world, {.memory_bytes = bytes});
@@ -173,7 +173,7 @@ TEST(PlannerStarved, ProvesWhatItsMemoryAllows) {
 }
 
 TEST(PlannerStarved, WithNoMemoryToSpeakOfItStillFlies) {
-  const World world(MediumScenario(3, 50));
+  const UavWorld world(MediumScenario(3, 50));
   const Plan whole = PlanOptimally(world);
   ASSERT_TRUE(whole.optimal);
   int unproved = 0;
@@ -194,7 +194,7 @@ TEST(PlannerStopped, BoundsTheTotalInWholeNumbersWhereWeightsAreEqual) {
     for (Sensor& sensor : scenario.sensors) {
       sensor.weight = sensor.weight > 0 ? 0.3 : 0;  // those of weight zero count in the total all the same
     }
-    const World world(scenario);
+    const UavWorld world(scenario);
     for (const int64_t bytes : {int64_t{0}, int64_t{4096}}) {
       const Plan plan = PlanOptimally(world, {.memory_bytes = bytes});
       const auto total = static_cast<double>(Figures(world, plan.flight).total_aoi);
@@ -212,7 +212,7 @@ TEST(PlannerStopped, ScalesTheBoundWhereWeightsAreUnequal) {
   Scenario scenario = MediumScenario(3, 50);
   scenario.sensors[0].weight = 2;
   scenario.sensors[1].weight = 0;
-  const World world(scenario);
+  const UavWorld world(scenario);
   Stopper stopper;
   const Plan plan = PlanUntilCall(world, 1, &stopper);
   EXPECT_FALSE(plan.optimal);

@@ -41,7 +41,7 @@ TEST(PlannerProblem, TakesWeightsAsMultiplesOfTheirLargestCommonFraction) {
                                                                {{1e-5, 1e6}, {1, 100'000'000'000}},
                                                                {{0, 5, 0, 10}, {1, 2}}}) {
     SCOPED_TRACE(weights.given[0]);
-    const World world(Weighted(weights.given));
+    const UavWorld world(Weighted(weights.given));
     const PlannerProblem problem(world);
     EXPECT_TRUE(problem.has_exact_weights());
     EXPECT_EQ(problem.weights(), weights.whole);
@@ -56,7 +56,7 @@ TEST(PlannerProblem, TakesWeightsAsMultiplesOfTheirLargestCommonFraction) {
 
 TEST(PlannerProblem, RoundsOtherWeightsDownByTheLeastBit) {
   const std::vector<double> given = {1, std::sqrt(2), 1e-12};
-  const World world(Weighted(given));
+  const UavWorld world(Weighted(given));
   const PlannerProblem problem(world);
   EXPECT_FALSE(problem.has_exact_weights());
   const double sum = given[0] + given[1] + given[2];
@@ -75,7 +75,7 @@ TEST(PlannerProblem, AllowsAsManyDearSlotsAsLeaveAWayHome) {
   for (uint32_t index = 0; index < 150; ++index) {
     SCOPED_TRACE(index);
     const Scenario scenario = TinyScenario(index);
-    const World world(scenario);
+    const UavWorld world(scenario);
     const PlannerProblem problem(world);
     EXPECT_EQ(problem.energy_binds(), EnergyBinds(scenario));
     const double flying_j = LiteralPower(scenario.rotor, scenario.speed_mps) * scenario.slot_s;

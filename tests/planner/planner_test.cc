@@ -22,12 +22,13 @@ namespace {
 
 // The flight's actions, flown through the second statement of the model, arrive with the same AoI.
 void ExpectFlies(const Scenario& scenario, const Episode& flight) {
-  const World world(scenario);
-  ASSERT_EQ(flight.states.size(), static_cast<size_t>(scenario.slots));
+  const UavWorld world(scenario);
+  const std::vector<UavState> states = StatesIn(flight);
+  ASSERT_EQ(states.size(), static_cast<size_t>(scenario.slots));
   std::vector<Action> actions;
-  for (size_t slots = 0; slots < flight.states.size(); ++slots) {
+  for (size_t slots = 0; slots < states.size(); ++slots) {
     const LiteralState state = SimulateLiterally(scenario, actions);
-    const std::vector<int16_t>& aoi = flight.states[slots].aoi;
+    const std::vector<int16_t>& aoi = states[slots].aoi;
     ASSERT_EQ(std::vector<int>(aoi.begin(), aoi.end()), state.aoi);
     ASSERT_EQ(state.outcome, slots < flight.actions.size() ? "flying" : "arrived");
     actions.push_back(ActionIn(world, flight, slots));
@@ -63,7 +64,7 @@ TEST(ExhaustiveSearch, FindsWhatTheBestOfAllActionSequencesHas) {
   int compared = 0;
   for (uint32_t index = 0; index < 400; ++index) {
     const Scenario scenario = TinyScenario(index);
-    const World world(scenario);
+    const UavWorld world(scenario);
     const double sequences = std::pow(world.actions(), scenario.slots - 1);
     if (sequences > 10000) {
       continue;
@@ -113,7 +114,7 @@ TEST(Planner, FindsTheOptimumOfExhaustiveSearchInEveryKindOfScenario) {
   for (uint32_t index = 0; index < 700; ++index) {
     SCOPED_TRACE(index);
     const Scenario scenario = TinyScenario(index);
-    const World world(scenario);
+    const UavWorld world(scenario);
     const Plan plan = PlanOptimally(world);
     const AoiFigures figures = Figures(world, plan.flight);
     ASSERT_TRUE(plan.optimal);
@@ -168,7 +169,7 @@ std::vector<KnownOptimum> KnownOptima() {
 TEST(Planner, ReachesTheKnownTotalsOfThePapersGrid) {
   for (const KnownOptimum& known : KnownOptima()) {
     SCOPED_TRACE(known.total_aoi);
-    const World world(InCells(known.sensors, known.radius_cells));
+    const UavWorld world(InCells(known.sensors, known.radius_cells));
     const Plan plan = PlanOptimally(world);
     EXPECT_TRUE(plan.optimal);
     EXPECT_EQ(Figures(world, plan.flight).total_aoi, known.total_aoi);
@@ -178,7 +179,7 @@ TEST(Planner, ReachesTheKnownTotalsOfThePapersGrid) {
 
 TEST(Planner, GivesTheSameResultTwice) {
   for (uint32_t index = 0; index < 40; ++index) {
-    const World world(TinyScenario(index));
+    const UavWorld world(TinyScenario(index));
     const Plan first = PlanOptimally(world);
     const Plan second = PlanOptimally(world);
     EXPECT_EQ(first.flight.actions, second.flight.actions);
@@ -197,7 +198,7 @@ TEST(Planner, ClaimsOfUnroundedWeightsOnlyWhatItHasProved) {
     for (Sensor& sensor : scenario.sensors) {
       sensor.weight = std::pow(10, 12 * stream.NextUniform() - 6);
     }
-    const World world(scenario);
+    const UavWorld world(scenario);
     const Plan plan = PlanOptimally(world);
     const double optimum = ExhaustiveSearch(scenario).LeastAverageAoi();
     const double found = Figures(world, plan.flight).average_aoi;

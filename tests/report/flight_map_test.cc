@@ -9,12 +9,13 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/worlds/table_one.h"
 #include "worlds/uav/baselines.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
 
 /// A grid that is not square, three sensors (one between cells), 30 slots.
-World SmallWorld() {
+UavWorld SmallWorld() {
   Scenario scenario = TableOne();
   scenario.columns = 12;
   scenario.rows = 8;
@@ -23,7 +24,7 @@ World SmallWorld() {
   scenario.stop = {10, 7};
   scenario.coverage_radius_m = 50;
   scenario.sensors = {{50, 50, 1}, {212.5, 137.5, 1}, {250, 25, 1}};
-  return World(scenario);
+  return UavWorld(scenario);
 }
 
 /// A sensor within the radius that was scheduled over a cell.
@@ -33,12 +34,12 @@ struct Collection {
 };
 
 /// The collections of a flight, from the distances themselves.
-std::vector<Collection> Collections(const World& world, const Episode& flight) {
+std::vector<Collection> Collections(const UavWorld& world, const Episode& flight) {
   std::vector<Collection> collections;
-  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
+  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
     const int scheduled = ActionIn(world, flight, slot).schedule;
     if (scheduled > 0) {
-      const Cell cell = flight.states[slot].cell;
+      const Cell cell = CellIn(flight.state(slot));
       const Sensor& sensor = world.scenario().sensors[static_cast<size_t>(scheduled - 1)];
       const double distance_m = std::hypot(cell.column * world.scenario().cell_m - sensor.x_m,
                                            cell.row * world.scenario().cell_m - sensor.y_m);
@@ -51,20 +52,21 @@ std::vector<Collection> Collections(const World& world, const Episode& flight) {
 }
 
 TEST(FlightMap, ShowsThePathSlotBySlotWithinItsCells) {
-  const World world = SmallWorld();
+  const UavWorld world = SmallWorld();
   const Episode flight = FlyBaseline(world, BaselineKind::kAoi);
   const auto path = DataBlock(DrawFlightMap("map", world, flight).script, "path");
-  ASSERT_EQ(path.size(), flight.states.size());
+  const std::vector<UavState> states = StatesIn(flight);
+  ASSERT_EQ(path.size(), states.size());
   for (size_t i = 0; i < path.size(); ++i) {
     ASSERT_EQ(path[i].size(), 3U);
-    EXPECT_LT(std::abs(path[i][0] - flight.states[i].cell.column), 0.5);
-    EXPECT_LT(std::abs(path[i][1] - flight.states[i].cell.row), 0.5);
+    EXPECT_LT(std::abs(path[i][0] - states[i].cell.column), 0.5);
+    EXPECT_LT(std::abs(path[i][1] - states[i].cell.row), 0.5);
     EXPECT_EQ(path[i][2], static_cast<double>(i + 1));
   }
 }
 
 TEST(FlightMap, JoinsEveryCollectionWithItsSensor) {
-  const World world = SmallWorld();
+  const UavWorld world = SmallWorld();
   const Episode flight = FlyBaseline(world, BaselineKind::kDistance);
   const std::vector<Collection> expected = Collections(world, flight);
   ASSERT_GT(expected.size(), 3U);
@@ -80,8 +82,8 @@ TEST(FlightMap, JoinsEveryCollectionWithItsSensor) {
 }
 
 TEST(FlightMap, LeavesOutSchedulesWithoutCoverage) {
-  const World world = SmallWorld();
-  const Episode flight = Fly(world, [&](const Environment& environment) {
+  const UavWorld world = SmallWorld();
+  const Episode flight = Fly(world, [&](const UavEnvironment& environment) {
     const bool east = environment.state().cell.column < world.scenario().stop.column;
     const bool north = environment.state().cell.row < world.scenario().stop.row;
     return Action{east ? Move::kEast : north ? Move::kNorth : Move::kHover, 2};
@@ -89,11 +91,11 @@ TEST(FlightMap, LeavesOutSchedulesWithoutCoverage) {
   const std::vector<Collection> expected = Collections(world, flight);
   const auto shown = DataBlock(DrawFlightMap("map", world, flight).script, "collections");
   EXPECT_EQ(shown.size(), expected.size());
-  EXPECT_LT(shown.size(), flight.states.size() - 1);
+  EXPECT_LT(shown.size(), flight.actions.size());
 }
 
 TEST(FlightMap, HasTheSensorsInCellsWithTheirNumbers) {
-  const World world = SmallWorld();
+  const UavWorld world = SmallWorld();
   const auto sensors =
       DataBlock(DrawFlightMap("map", world, FlyBaseline(world, BaselineKind::kAoi)).script, "sensors");
   ASSERT_EQ(sensors.size(), 3U);
@@ -107,7 +109,7 @@ TEST(FlightMap, HasTheSensorsInCellsWithTheirNumbers) {
 }
 
 TEST(FlightMap, IsTwoFilesThatStayTheSame) {
-  const World world = SmallWorld();
+  const UavWorld world = SmallWorld();
   const Picture picture = DrawFlightMap("AoI-based", world, FlyBaseline(world, BaselineKind::kAoi));
   const TemporaryFolder folder;
   WritePicture(picture, folder.path() / "map");
@@ -124,9 +126,9 @@ TEST(FlightMap, IsTwoFilesThatStayTheSame) {
 }
 
 TEST(FlightMap, CanBeDrawnOfAFlightThatEndedEarlyWithoutCollections) {
-  const World world = SmallWorld();
-  const Episode flight = Fly(world, [](const Environment&) { return Action{Move::kHover, 0}; });
-  ASSERT_FALSE(flight.arrived());
+  const UavWorld world = SmallWorld();
+  const Episode flight = Fly(world, [](const UavEnvironment&) { return Action{Move::kHover, 0}; });
+  ASSERT_FALSE(Arrived(flight));
   const TemporaryFolder folder;
   WritePicture(DrawFlightMap("hovered", world, flight), folder.path() / "map");
   EXPECT_TRUE(ParsesAsXml(folder.path() / "map.svg"));

@@ -11,6 +11,8 @@
 #include "tests/msgs/message_samples.h"
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
+#include "worlds/cartpole/cartpole.h"
+#include "worlds/uav/aoi_figures.h"
 #include "worlds/uav/baselines.h"
 
 namespace fresco {
@@ -19,14 +21,14 @@ namespace {
 constexpr uint32_t kThisTest = 31;
 const std::vector<std::string> kMoveNames = {"north", "south", "east", "west", "hover"};
 
-Episode RandomFlight(const World& world, uint32_t index) {
+Episode RandomFlight(const UavWorld& world, uint32_t index) {
   RandomStream stream = TestStream(kThisTest, index);
-  return Fly(world, [&](const Environment& environment) {
+  return Fly(world, [&](const UavEnvironment& environment) {
     return RandomAction(world, environment, {index % 2 == 0, false}, &stream);
   });
 }
 
-void ExpectSameFlight(const World& world, const Episode& flight) {
+void ExpectSameFlight(const UavWorld& world, const Episode& flight) {
   const auto json = nlohmann::json::parse(FlightJson(world, flight, "p"));
   const std::vector<flight_t> messages = FlightMessages(world, flight, "p");
   ASSERT_EQ(messages.size(), json["flight"].size());
@@ -48,20 +50,20 @@ void ExpectSameFlight(const World& world, const Episode& flight) {
     EXPECT_EQ(message.outcome != 0, i + 1 == messages.size());
     reward += message.reward;
   }
-  EXPECT_EQ(messages.back().outcome, static_cast<int>(flight.outcome));
+  EXPECT_EQ(messages.back().outcome, static_cast<int>(OutcomeOf(flight)));
   EXPECT_DOUBLE_EQ(reward, std::accumulate(flight.rewards.begin(), flight.rewards.end(), 0.0));
   EXPECT_FLOAT_EQ(messages.back().remaining_energy_j, json["residual_energy_j"].get<float>());
 }
 
 TEST(FlightMessages, AreTheFlightThatEvaluatePrints) {
   for (uint32_t index = 0; index < 200; ++index) {
-    const World world(RandomScenario(index));
+    const UavWorld world(RandomScenario(index));
     ExpectSameFlight(world, RandomFlight(world, index));
   }
 }
 
 TEST(FlightMessages, SumTheAoiOfAWholeFlight) {
-  const World world(TableOneScenario());
+  const UavWorld world(TableOneScenario());
   const Episode flight = FlyBaseline(world, BaselineKind::kAoi);
   ExpectSameFlight(world, flight);
   const std::vector<flight_t> messages = FlightMessages(world, flight, "aoi");
@@ -71,7 +73,7 @@ TEST(FlightMessages, SumTheAoiOfAWholeFlight) {
 }
 
 TEST(FlightMessages, FitAFrameWhateverThePolicyIsCalled) {
-  const World world(TableOneScenario());
+  const UavWorld world(TableOneScenario());
   for (const flight_t& message :
        FlightMessages(world, FlyBaseline(world, BaselineKind::kDistance), std::string(5000, 'p'))) {
     flight_t decoded{};
@@ -92,7 +94,7 @@ Scenario FieldOf(int sensors) {
 TEST(ScenarioMessages, CarryEverySensorOnceAndInOrder) {
   for (const auto& [sensors, expected_messages] :
        {std::pair{1, 1}, {3, 1}, {48, 1}, {49, 2}, {96, 2}, {97, 3}, {250, 6}}) {
-    const std::vector<scenario_t> messages = ScenarioMessages(FieldOf(sensors));
+    const std::vector<scenario_t> messages = ScenarioMessages(UavWorld(FieldOf(sensors)));
     EXPECT_EQ(messages.size(), static_cast<size_t>(expected_messages));
     int next = 0;
     for (const scenario_t& message : messages) {
@@ -110,6 +112,10 @@ TEST(ScenarioMessages, CarryEverySensorOnceAndInOrder) {
   }
 }
 
+TEST(ScenarioMessages, AreNoneInAnotherWorld) {
+  EXPECT_TRUE(ScenarioMessages(CartPole(500)).empty());
+}
+
 TEST(ScenarioMessages, TellTheFieldAndTheFlight) {
   Scenario scenario = FieldOf(2);
   scenario.columns = 7;
@@ -121,7 +127,7 @@ TEST(ScenarioMessages, TellTheFieldAndTheFlight) {
   scenario.stop = {3, 4};
   scenario.coverage_radius_m = 60;
   scenario.initial_energy_j = 5000;
-  const scenario_t uncapped = ScenarioMessages(scenario).at(0);
+  const scenario_t uncapped = ScenarioMessages(UavWorld(scenario)).at(0);
   EXPECT_EQ(uncapped.columns, 7);
   EXPECT_EQ(uncapped.rows, 9);
   EXPECT_EQ(uncapped.cell_m, 12.5);
@@ -132,10 +138,10 @@ TEST(ScenarioMessages, TellTheFieldAndTheFlight) {
   EXPECT_EQ(uncapped.stop_column, 3);
   EXPECT_EQ(uncapped.stop_row, 4);
   EXPECT_EQ(uncapped.coverage_radius_m, 60);
-  EXPECT_EQ(uncapped.initial_energy_j, 5000);
+  EXPECT_NEAR(uncapped.initial_energy_j, 5000, 1e-9);
   EXPECT_EQ(uncapped.maximum_aoi, 0);
   scenario.maximum_aoi = 20;
-  EXPECT_EQ(ScenarioMessages(scenario).at(0).maximum_aoi, 20);
+  EXPECT_EQ(ScenarioMessages(UavWorld(scenario)).at(0).maximum_aoi, 20);
 }
 
 }  // namespace

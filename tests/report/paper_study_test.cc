@@ -9,13 +9,17 @@
 #include <set>
 
 #include "core/error.h"
-#include "worlds/uav/world.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
 
 Experiment Base() {
   return Experiment::Parse("scenario { sensor { x_m: 200 y_m: 175 } } schedule { seed: 7 }", "the base");
+}
+
+const Scenario& ScenarioOfJob(const PaperStudy& study, const StudyPoint& point) {
+  return RequireUavWorld(study.jobs[point.job].experiment.world(), "the test").scenario();
 }
 
 std::vector<StudyPoint> PointsOf(const PaperStudy& study, Figure figure) {
@@ -33,7 +37,7 @@ TEST(PaperStudy, HasThePapersPointsForEveryDeployment) {
     std::set<std::pair<double, int>> seen;
     for (const StudyPoint& point : PointsOf(study, figure)) {
       seen.insert({point.x, point.deployment});
-      const Scenario& scenario = study.jobs[point.job].experiment.scenario();
+      const Scenario& scenario = ScenarioOfJob(study, point);
       const double radius_cells = figure == Figure::kRadius ? point.x : 4;
       const double sensors = figure == Figure::kSensors ? point.x : 3;
       EXPECT_EQ(scenario.coverage_radius_m, 25 * radius_cells);
@@ -60,7 +64,7 @@ TEST(PaperStudy, GivesADeploymentTheSameSensorsAtEveryRadius) {
   const PaperStudy study = MakePaperStudy(Base(), {});
   std::map<int, std::set<double>> first_sensor_x_m;
   for (const StudyPoint& point : PointsOf(study, Figure::kRadius)) {
-    first_sensor_x_m[point.deployment].insert(study.jobs[point.job].experiment.scenario().sensors[0].x_m);
+    first_sensor_x_m[point.deployment].insert(ScenarioOfJob(study, point).sensors[0].x_m);
   }
   std::set<double> different;
   for (const auto& [deployment, positions] : first_sensor_x_m) {

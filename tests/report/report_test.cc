@@ -12,6 +12,7 @@
 #include "tests/report/picture_files.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/baselines.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -81,7 +82,7 @@ class ReportTest : public testing::Test {
     return contents;
   }
 
-  const World world_{TableOneScenario()};
+  const UavWorld world_{TableOneScenario()};
 };
 
 TEST_F(ReportTest, ShowsWhatItIsGiven) {
@@ -108,6 +109,13 @@ TEST_F(ReportTest, LeavesOutWhatIsEmpty) {
   EXPECT_THAT(page, Not(HasSubstr("id=\"flight-data\"")));
 }
 
+TEST_F(ReportTest, SaysWhatAoiIsOnlyInTheUavsWorld) {
+  EXPECT_THAT(ReportPage(Everything()), HasSubstr("AoI is age of information"));
+  ReportContents contents;
+  contents.title = "CartPole";
+  EXPECT_THAT(ReportPage(contents), Not(HasSubstr("AoI is")));
+}
+
 TEST_F(ReportTest, CarriesTheWorld) {
   const Json world = Json::parse(FlightData(ReportPage(Everything())))["world"];
   EXPECT_EQ(world, Json::parse(R"({"columns": 20, "rows": 20, "cell_m": 25.0, "slots": 70,
@@ -126,7 +134,7 @@ TEST_F(ReportTest, CarriesEverySlotOfEveryFlight) {
     EXPECT_EQ(flights[number]["outcome"], "arrived");
     ASSERT_EQ(flights[number]["flight"].size(), 70);
     for (size_t slot = 0; slot < 70; ++slot) {
-      const State& state = expected.flight.states[slot];
+      const UavState state = StateIn(expected.flight, slot);
       const Action action = ActionIn(*contents.world, expected.flight, slot);
       const Json& found = flights[number]["flight"][slot];
       EXPECT_EQ(found["slot"], slot + 1);
@@ -156,7 +164,7 @@ TEST_F(ReportTest, SaysWhatIsCollected) {
 
 TEST_F(ReportTest, ASensorScheduledOutOfCoverageIsNotCollected) {
   ReportContents contents = Everything();
-  contents.flights = {{"in vain", Fly(world_, [](const Environment&) {
+  contents.flights = {{"in vain", Fly(world_, [](const UavEnvironment&) {
                          return Action{Move::kNorth, 3};  // sensor 3 is 20 cells away at first
                        })}};
   const Json data = Json::parse(FlightData(ReportPage(contents)));

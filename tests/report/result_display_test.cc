@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/worlds/test_scenarios.h"
+#include "worlds/cartpole/cartpole.h"
+#include "worlds/uav/uav_world.h"
+
 namespace fresco {
 namespace {
 
@@ -23,14 +27,40 @@ learner_status_t Status() {
   status.transitions_per_s = 4800;
   status.updates_per_s = 600;
   status.actors = 2;
-  status.average_aoi = status.best_average_aoi = status.lower_bound_average_aoi = status.gap_percent = kNan;
+  status.score = status.best_score = status.score_bound = status.gap_percent = kNan;
   return status;
 }
 
+std::string UavLine(const learner_status_t& status) {
+  static const UavWorld world(TableOneScenario());
+  return ProgressLine(status, world.description());
+}
+
+std::string CartPoleLine(const learner_status_t& status) {
+  return ProgressLine(status, CartPole(500).description());
+}
+
 std::string Summary(const std::string& average_aoi, const std::string& optimum) {
-  return R"({"average_aoi": )" + average_aoi + R"(, "total_aoi": 2804, "arrived": true, )" + optimum +
-         R"(, "baselines": {"aoi": {"average_aoi": 17.5, "total_aoi": 3684, "arrived": true},
-             "distance": {"average_aoi": 17.0, "total_aoi": 3589, "arrived": false}}})";
+  const std::string success = average_aoi == "null" ? "null" : "1";
+  const std::string arrived = average_aoi == "null" ? "null" : "true";
+  return R"({"world": {"name": "uav", "success": "arrived", "figures": [{"name": "average_aoi", "unit": "slots"},
+             {"name": "total_aoi", "unit": "slots"}, {"name": "sum_aoi", "unit": "slots"}]},
+             "score": )" +
+         average_aoi + R"(, "success": )" + success + R"(, "average_aoi": )" + average_aoi +
+         R"(, "total_aoi": 2804, "sum_aoi": 40.057, "arrived": )" + arrived + R"(, "gap_percent": null, )" +
+         optimum +
+         R"(, "baselines": {"aoi": {"title": "AoI-based", "average_aoi": 17.5, "total_aoi": 3684,
+                                    "sum_aoi": 52.6, "arrived": true},
+             "distance": {"title": "distance-based", "average_aoi": 17.0, "total_aoi": 3589, "sum_aoi": 51.3,
+                          "arrived": false}}})";
+}
+
+/// Of a world with chance, without baselines and without a search for the optimum.
+std::string CartPoleSummary(const std::string& score, const std::string& success) {
+  const std::string all = success == "null" ? "null" : success == "1" ? "true" : "false";
+  return R"({"world": {"name": "cartpole", "success": "balanced", "figures": [{"name": "return", "unit": ""}]},
+             "score": )" +
+         score + R"(, "success": )" + success + R"(, "return": )" + score + R"(, "balanced": )" + all + "}";
 }
 
 constexpr char kProved[] =
@@ -45,12 +75,12 @@ constexpr char kUnknown[] =
 
 TEST(ProgressLine, SaysHowFarTheRunIsAndWhoWaits) {
   learner_status_t status = Status();
-  EXPECT_EQ(
-      ProgressLine(status),
-      " 25% | 1500 of 6000 episodes | 12000 updates | epsilon 0.160 | greedy AoI - | 4800 transitions/s | "
-      "600 updates/s | 2 actors | actors wait for the learner");
+  EXPECT_EQ(UavLine(status),
+            " 25% | 1500 of 6000 episodes | 12000 updates | epsilon 0.160 | greedy average AoI - | 4800 "
+            "transitions/s | "
+            "600 updates/s | 2 actors | actors wait for the learner");
   status.waiting_for = "an actor to join";
-  EXPECT_THAT(ProgressLine(status), HasSubstr("learner waits for an actor to join"));
+  EXPECT_THAT(UavLine(status), HasSubstr("learner waits for an actor to join"));
 }
 
 TEST(ProgressLine, BeginsWithWhatIsWaitedForAfterTheTraining) {
@@ -58,7 +88,7 @@ TEST(ProgressLine, BeginsWithWhatIsWaitedForAfterTheTraining) {
   status.episodes = status.total_episodes;
   status.waiting_for = "the proof of the exact optimum: at most 40 s more of processor time";
   EXPECT_EQ(
-      ProgressLine(status).find(
+      UavLine(status).find(
           "trained, waits for the proof of the exact optimum: at most 40 s more of processor time | 6000 "),
       0u);
 }
@@ -66,30 +96,81 @@ TEST(ProgressLine, BeginsWithWhatIsWaitedForAfterTheTraining) {
 TEST(ProgressLine, BeginsWithAWarning) {
   learner_status_t status = Status();
   status.warning = "the last checkpoint could not be written";
-  EXPECT_EQ(ProgressLine(status).find("WARNING: the last checkpoint could not be written |  25% | 1500 of"),
-            0u);
+  EXPECT_EQ(UavLine(status).find("WARNING: the last checkpoint could not be written |  25% | 1500 of"), 0u);
 }
 
 TEST(ProgressLine, ShowsTheGapOnceTheOptimumIsProvedAndABoundBefore) {
   learner_status_t status = Status();
-  status.average_aoi = 14;
-  status.best_average_aoi = 13.75;
-  status.arrived = 1;
-  EXPECT_THAT(ProgressLine(status), HasSubstr("greedy AoI 14.000 |"));
-  status.lower_bound_average_aoi = 1.25;
-  EXPECT_THAT(ProgressLine(status), HasSubstr("best 13.750 (optimum not proved, at least 1.250) |"));
-  status.lower_bound_average_aoi = 12.5;
+  status.score = 14;
+  status.best_score = 13.75;
+  status.success = 1;
+  EXPECT_THAT(UavLine(status), HasSubstr("greedy average AoI 14.000 |"));
+  status.score_bound = 1.25;
+  EXPECT_THAT(UavLine(status), HasSubstr("best 13.750 (optimum not proved, at least 1.250) |"));
+  status.score_bound = 12.5;
   status.gap_percent = 10;
   status.optimum_proved = 1;
-  EXPECT_THAT(ProgressLine(status), HasSubstr("best 13.750 (10.00 % over the optimum)"));
-  status.arrived = 0;
-  EXPECT_THAT(ProgressLine(status), HasSubstr("14.000 (not arrived)"));
+  EXPECT_THAT(UavLine(status), HasSubstr("best 13.750 (10.00 % over the optimum)"));
+  status.success = 0;
+  EXPECT_THAT(UavLine(status), HasSubstr("14.000 (not arrived)"));
+}
+
+TEST(ProgressLine, ShowsTheShareOfSuccessInAWorldWithChance) {
+  learner_status_t status = Status();
+  EXPECT_THAT(CartPoleLine(status), HasSubstr("| greedy return - |"));
+  status.score = 21.5;
+  EXPECT_THAT(CartPoleLine(status), HasSubstr("| greedy return 21.500 (not balanced) |"));
+  status.best_score = 480.25;
+  status.success = 0.4;
+  EXPECT_THAT(CartPoleLine(status), HasSubstr("| greedy return 21.500 (40 % balanced), best 480.250 |"));
+  status.success = 0.998;
+  EXPECT_THAT(CartPoleLine(status), HasSubstr("(99.8 % balanced)"));
+  status.score = 500;
+  status.success = 1;
+  EXPECT_THAT(CartPoleLine(status), HasSubstr("| greedy return 500.000, best 480.250 |"));
+}
+
+TEST(PercentText, IsNeverAllOrNothingWithoutBeingIt) {
+  EXPECT_EQ(PercentText(0), "0 %");
+  EXPECT_EQ(PercentText(1), "100 %");
+  EXPECT_EQ(PercentText(0.37), "37 %");
+  EXPECT_EQ(PercentText(2.0 / 3), "67 %");
+  EXPECT_EQ(PercentText(0.999), "99.9 %");
+  EXPECT_EQ(PercentText(0.001), "0.1 %");
+  EXPECT_EQ(PercentText(0.996), "99.6 %");
+  EXPECT_EQ(PercentText(1 - 1e-6), "99.9999 %");
+}
+
+TEST(Title, IsAQuantityInWords) {
+  EXPECT_EQ(Title("average_aoi"), "average AoI");
+  EXPECT_EQ(Title("return"), "return");
+  EXPECT_EQ(Title("swung_up"), "swung up");
+}
+
+using Rows = std::vector<std::vector<std::string>>;
+
+TEST(CartPoleRows, HaveNeitherGapNorBaselinesNorOptimum) {
+  EXPECT_EQ(PolicyRows(CartPoleSummary("487.25", "0.9")),
+            (Rows{{"policy", "return", "balanced"}, {"this run (DQN)", "487.250", "90 %"}}));
+  EXPECT_EQ(PolicyRows(CartPoleSummary("500", "1")).at(1),
+            (std::vector<std::string>{"this run (DQN)", "500.000", "yes"}));
+  EXPECT_EQ(PolicyRows(CartPoleSummary("9.5", "0")).at(1),
+            (std::vector<std::string>{"this run (DQN)", "9.500", "NO"}));
+  EXPECT_EQ(PolicyRows(CartPoleSummary("null", "null")).at(1),
+            (std::vector<std::string>{"this run (DQN)", "-", "not evaluated"}));
+  EXPECT_EQ(OptimumNote(CartPoleSummary("500", "1")), "");
+}
+
+TEST(CartPoleRows, AreATableOfTwoLines) {
+  EXPECT_EQ(ResultTable(CartPoleSummary("487.25", "0.9")),
+            "  policy                return  balanced\n"
+            "  this run (DQN)       487.250  90 %\n");
 }
 
 TEST(PolicyRows, HoldEveryPolicyAgainstTheOptimum) {
   const auto rows = PolicyRows(Summary("13", kProved));
   ASSERT_EQ(rows.size(), 5u);
-  EXPECT_EQ(rows[0][3], "gap");
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"policy", "average AoI", "total AoI", "gap", "arrived"}));
   EXPECT_EQ(rows[1], (std::vector<std::string>{"this run (DQN)", "13.000", "2804", "4.00 %", "yes"}));
   EXPECT_EQ(rows[2][3], "40.00 %");
   EXPECT_EQ(rows[3], (std::vector<std::string>{"distance-based", "17.000", "3589", "-", "NO"}));

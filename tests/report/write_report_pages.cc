@@ -15,7 +15,9 @@
 #include "planner/planner.h"
 #include "report/report.h"
 #include "tests/worlds/table_one.h"
+#include "worlds/uav/aoi_figures.h"
 #include "worlds/uav/baselines.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -41,11 +43,11 @@ std::string ReadText(const std::filesystem::path& path) {
 
 /// Returns a line for each slot: flight, slot, column, row, move, scheduled, collected, then the AoI of every
 /// sensor.
-std::string Csv(const World& world, const std::vector<ReportFlight>& flights) {
+std::string Csv(const UavWorld& world, const std::vector<ReportFlight>& flights) {
   std::string csv;
   for (const ReportFlight& flight : flights) {
-    for (size_t slot = 0; slot < flight.flight.states.size(); ++slot) {
-      const State& state = flight.flight.states[slot];
+    for (size_t slot = 0; slot <= flight.flight.actions.size(); ++slot) {
+      const UavState state = StateIn(flight.flight, slot);
       const Action action = ActionIn(world, flight.flight, slot);
       const bool collected = action.schedule > 0 && world.Covers(state.cell, action.schedule - 1);
       csv +=
@@ -56,7 +58,7 @@ std::string Csv(const World& world, const std::vector<ReportFlight>& flights) {
   return csv;
 }
 
-std::vector<std::string> FlightRow(const World& world, const ReportFlight& flight) {
+std::vector<std::string> FlightRow(const UavWorld& world, const ReportFlight& flight) {
   const AoiFigures figures = Figures(world, flight.flight);
   return {flight.name, fmt::format("{:.3f}", figures.average_aoi), fmt::format("{}", figures.total_aoi),
           fmt::format("{:.0f}", ResidualEnergy(world, flight.flight))};
@@ -68,7 +70,7 @@ void WritePage(const std::filesystem::path& folder, const std::string& name, con
 }
 
 void WriteRun(const std::filesystem::path& folder, const Experiment& experiment, const std::string& svg) {
-  const World world(experiment.scenario());
+  const UavWorld& world = RequireUavWorld(experiment.world(), "a report of flights");
   ReportContents contents;
   contents.world = &world;
   contents.title = "Three sensors, R = 100 m";
@@ -101,7 +103,7 @@ void WriteLarge(const std::filesystem::path& folder) {
   scenario.start = {50, 0};
   scenario.stop = {50, 99};
   scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 250, 7);
-  const World world(scenario);
+  const UavWorld world(scenario);
   ReportContents contents;
   contents.world = &world;
   contents.title = "250 sensors, 1000 slots";
@@ -111,7 +113,7 @@ void WriteLarge(const std::filesystem::path& folder) {
 }
 
 void WriteHarmful(const std::filesystem::path& folder, const Scenario& scenario) {
-  const World world(scenario);
+  const UavWorld world(scenario);
   const std::string harm = "\"'></title></script><script>window.harmed = true</script><!-- {{script}} &amp;";
   ReportContents contents;
   contents.world = &world;
@@ -137,7 +139,8 @@ int main(int count, char** arguments) {
     const fresco::Experiment experiment = fresco::Experiment::Load(arguments[2], {});
     fresco::WriteRun(arguments[1], experiment, fresco::ReadText(arguments[3]));
     fresco::WriteLarge(arguments[1]);
-    fresco::WriteHarmful(arguments[1], experiment.scenario());
+    fresco::WriteHarmful(arguments[1],
+                         fresco::RequireUavWorld(experiment.world(), "a report of flights").scenario());
     return 0;
   } catch (const fresco::Error& error) {
     std::cerr << error.what() << "\n";

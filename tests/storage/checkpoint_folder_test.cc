@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
+#include <map>
+
 #include "core/files.h"
 #include "storage/run_folder.h"
 #include "tests/support/error_of.h"
@@ -62,6 +64,54 @@ TEST_F(ResumptionTest, TakesTheLatestCheckpoint) {
   EXPECT_EQ(ReadResumption(directory_, {}).checkpoint->run_id, 77);
 }
 
+/// In a world with chance, in which an evaluation has several episodes and a checkpoint may fall between
+/// them.
+TEST(CartPoleCheckpoint, GoesOnWithTheSameBitsFromAnyPlace) {
+  const FinishedRun whole(SmallCartPole());
+  const auto orders = whole.episodes.size();
+  int within_evaluations = 0;
+  int delivering = 0;
+  int truncated = 0;
+  for (size_t stop = 1; stop < orders; stop += 3) {
+    RecordedRun run(SmallCartPole());
+    while (run.episodes.size() < stop) {
+      run.Commit(run.Fly(run.next()));
+    }
+    const Checkpoint read = ParseCheckpoint(
+        SerializeCheckpoint({run.experiment, ArithmeticFingerprint(), 77, run.trainer.Save()}), "a test");
+    const TrainingState& state = read.training;
+    within_evaluations += state.partial_evaluation.episodes > 0 ? 1 : 0;
+    delivering += state.progress.delivering ? 1 : 0;
+    for (const auto& episode : state.replay) {
+      truncated += episode->ending == Ending::kTruncated ? 1 : 0;
+    }
+    std::map<int64_t, Order> orders_again;
+    std::map<NetworkVersion, std::shared_ptr<const Vector>> versions;
+    TrainerOutput output;
+    output.order = [&](const Order& order) { orders_again[order.index] = order; };
+    output.version = [&](NetworkVersion version, std::shared_ptr<const Vector> parameters) {
+      versions[version] = std::move(parameters);
+    };
+    output.evaluation = [](const Evaluation&) {};
+    Trainer resumed(read.experiment, output);
+    resumed.Resume(state);
+    while (!resumed.finished()) {
+      const Order order = orders_again.at(resumed.progress().committed_orders);
+      resumed.Commit(
+          order, FlyOrder(read.experiment, order, versions.at({NetworkKind::kCurrent, order.current_version}),
+                          versions.at({NetworkKind::kTarget, order.target_version}))
+                     .episode);
+    }
+    EXPECT_TRUE(resumed.current() == whole.trainer.current()) << stop;
+    ASSERT_TRUE(resumed.delivered()) << stop;
+    EXPECT_EQ(resumed.delivered()->figures, whole.trainer.delivered()->figures) << stop;
+    EXPECT_EQ(resumed.delivered()->version, whole.trainer.delivered()->version) << stop;
+  }
+  EXPECT_GT(within_evaluations, 0);
+  EXPECT_GT(delivering, 0);
+  EXPECT_GT(truncated, 0);
+}
+
 TEST_F(ResumptionTest, BeginsAtTheBeginningWhereThereIsNoCheckpoint) {
   EXPECT_FALSE(ReadResumption(directory_, {}).checkpoint.has_value());
   std::filesystem::remove_all(directory_ / "checkpoints");
@@ -74,7 +124,7 @@ TEST_F(ResumptionTest, TakesTheOneBeforeWhereTheLatestIsTornDamagedForeignOrNewe
   std::string damaged = whole;
   damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
   std::string newer = whole;
-  newer.replace(newer.find("fresco-checkpoint-2"), 19, "fresco-checkpoint-9");
+  newer.replace(newer.find("fresco-checkpoint-3"), 19, "fresco-checkpoint-9");
   for (const std::string& content : {std::string(), whole.substr(0, 1), whole.substr(0, 40),
                                      whole.substr(0, whole.size() / 2), whole.substr(0, whole.size() - 1),
                                      damaged, newer, std::string("P5 640 480"), std::string(9999, '\n')}) {
@@ -148,7 +198,7 @@ TEST_F(ResumptionTest, NamesWhatIsWrongWithEachWhereNoneIsWhole) {
   const std::string whole = NextCheckpoint();
   Write(whole.substr(0, 1000));
   std::string newer = NextCheckpoint();
-  newer.replace(newer.find("fresco-checkpoint-2"), 19, "fresco-checkpoint-9");
+  newer.replace(newer.find("fresco-checkpoint-3"), 19, "fresco-checkpoint-9");
   const Path path = Write(newer);
   const std::string refusal = Refusal();
   for (const std::string& part : {std::string("cut short, at 1000 bytes"), std::string("fresco-checkpoint-9"),

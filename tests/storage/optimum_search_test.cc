@@ -8,6 +8,9 @@
 
 #include "tests/training/literal_run.h"
 #include "tests/worlds/table_one.h"
+#include "worlds/cartpole/cartpole.h"
+#include "worlds/uav/aoi_figures.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -16,17 +19,18 @@ constexpr int64_t kPatienceUs = 60'000'000;
 
 class OptimumSearchTest : public ::testing::Test {
  protected:
-  World world_{SmallExperiment().scenario()};
+  const Experiment experiment_ = SmallExperiment();
+  const UavWorld& world_ = RequireUavWorld(experiment_.world(), "the test");
 };
 
 /// Far more than a test would wait for.
-World HardWorld() {
+UavWorld HardWorld() {
   Scenario scenario = TableOne();
   scenario.slots = 200;
   scenario.coverage_radius_m = 150;
   scenario.initial_energy_j = 50'000;
   scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 12, 1);
-  return World(scenario);
+  return UavWorld(scenario);
 }
 
 TEST_F(OptimumSearchTest, FindsThePlannersOptimum) {
@@ -51,8 +55,18 @@ TEST_F(OptimumSearchTest, SearchesForNothingWithoutTime) {
   EXPECT_FALSE(search.bound().has_value());
 }
 
+TEST_F(OptimumSearchTest, SearchesForNothingInAWorldThatThePlannerDoesNotKnow) {
+  const CartPole world(9);
+  OptimumSearch search(world, {});
+  EXPECT_TRUE(search.WaitForEnd(0));
+  EXPECT_EQ(search.result().plan, nullptr);
+  EXPECT_EQ(search.result().end, SearchEnd::kOff);
+  EXPECT_FALSE(search.bound().has_value());
+  EXPECT_EQ(search.processor_seconds_left(), 0);
+}
+
 TEST_F(OptimumSearchTest, HasAFlightAndABoundWhenItIsStopped) {
-  const World world = HardWorld();
+  const UavWorld world = HardWorld();
   OptimumSearch search(world, {1e6, 500'000'000});
   EXPECT_GT(search.processor_seconds_left(), 0);
   search.Stop();
@@ -61,13 +75,13 @@ TEST_F(OptimumSearchTest, HasAFlightAndABoundWhenItIsStopped) {
   ASSERT_NE(plan, nullptr);
   EXPECT_EQ(search.result().end, SearchEnd::kStopped);
   EXPECT_FALSE(plan->optimal);
-  EXPECT_TRUE(plan->flight.arrived());
+  EXPECT_TRUE(Arrived(plan->flight));
   EXPECT_FALSE(search.bound()->proved);
   EXPECT_LT(plan->lower_bound_average_aoi, Figures(world, plan->flight).average_aoi);
 }
 
 TEST_F(OptimumSearchTest, EndsAtItsLimitOfProcessorTime) {
-  const World world = HardWorld();
+  const UavWorld world = HardWorld();
   OptimumSearch search(world, {0.01, 500'000'000});
   EXPECT_TRUE(search.WaitForEnd(kPatienceUs));
   EXPECT_EQ(search.result().end, SearchEnd::kLimit);
@@ -90,7 +104,7 @@ TEST_F(OptimumSearchTest, EndsOnceItsProcessorTimeIsUsedHoweverShortTheWait) {
 }
 
 TEST_F(OptimumSearchTest, SaysHowMuchProcessorTimeIsLeft) {
-  const World world = HardWorld();
+  const UavWorld world = HardWorld();
   std::atomic<int64_t> taken_us = 0;
   OptimumSearch search(world, {100, 500'000'000}, [&] { return taken_us.load(); });
   EXPECT_EQ(search.processor_seconds_left(), 100);

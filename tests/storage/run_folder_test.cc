@@ -43,7 +43,7 @@ class RunFolderTest : public ::testing::Test {
 };
 
 Evaluation EvaluationOf(int64_t version, bool arrived) {
-  return {version, version * 100, version * 10, arrived, {1234, 8.5, 17.25}};
+  return {version, version * 100, version * 10, arrived ? 1.0 : 0.0, {8.5, 1234, 17.25}};
 }
 
 TEST_F(RunFolderTest, BeginsWithTheWholeConfigurationInAFolderOfItsOwn) {
@@ -76,9 +76,9 @@ TEST_F(RunFolderTest, AddsALineOfMetricsWithEveryEvaluation) {
   progress.learning_rate = 0.00125;
   progress.loss = 0.0625;
   const std::string header =
-      "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,total_aoi,average_aoi,"
+      "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,arrived,average_aoi,total_aoi,"
       "sum_aoi\n";
-  const std::string first = "1.500,40,780,400,4,0.16,0.00125,0.0625,1,1234,8.500000,17.250000\n";
+  const std::string first = "1.500,40,780,400,4,0.16,0.00125,0.0625,1,8.5,1234,17.25\n";
   folder.AddMetrics(EvaluationOf(4, true), progress, 1.5);
   folder.Finish();
   EXPECT_EQ(Content("metrics.csv"), header + first);
@@ -86,7 +86,16 @@ TEST_F(RunFolderTest, AddsALineOfMetricsWithEveryEvaluation) {
   folder.AddMetrics(EvaluationOf(8, false), progress, 61.0625);
   folder.Finish();
   EXPECT_EQ(Content("metrics.csv"),
-            header + first + "61.062,80,1560,800,8,0.16,0.00125,0.0625,0,1234,8.500000,17.250000\n");
+            header + first + "61.062,80,1560,800,8,0.16,0.00125,0.0625,0,8.5,1234,17.25\n");
+}
+
+TEST_F(RunFolderTest, HasTheColumnsOfTheWorld) {
+  RunFolder folder(directory_, SmallCartPole());
+  folder.AddMetrics({4, 400, 40, 1.0 / 3, {11.25}}, {}, 1.5);
+  folder.Finish();
+  EXPECT_EQ(Content("metrics.csv"),
+            "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,balanced,return\n"
+            "1.500,40,0,400,4,0,0,0,0.333333,11.25\n");
 }
 
 TEST_F(RunFolderTest, DeliversTheBestNetworkAsANetworkFile) {

@@ -5,12 +5,15 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/bytes.h"
 #include "tests/nn/literal_network.h"
 #include "tests/training/literal_run.h"
 #include "training/flyer.h"
+#include "worlds/uav/aoi_figures.h"
 #include "worlds/uav/baselines.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -39,7 +42,6 @@ BusCounters DistinctCounters() {
 Json SummaryOf(const RecordedRun& run, int64_t run_id = 0x2a, std::shared_ptr<const Plan> plan = nullptr,
                SearchEnd end = SearchEnd::kOff) {
   return Json::parse(SummaryJson({run.experiment,
-                                  run.world,
                                   run_id,
                                   run.trainer.finished(),
                                   4.0,
@@ -54,12 +56,20 @@ std::string EightDigits(uint32_t value) {
   return text;
 }
 
+const UavWorld& UavWorldOf(const RecordedRun& run) {
+  return RequireUavWorld(run.world, "the test");
+}
+
+AoiFigures Figures(const RecordedRun& run, const Episode& flight) {
+  return Figures(UavWorldOf(run), flight);
+}
+
 /// The three figures over 14 slots, weights 1/3 and 2/3.
-void ExpectFigures(const Json& json, const std::vector<State>& states) {
+void ExpectFigures(const Json& json, const std::vector<UavState>& states) {
   int64_t total = 0;
   double weighted = 0;
   ASSERT_EQ(states.size(), 14u);
-  for (const State& state : states) {
+  for (const UavState& state : states) {
     total += state.aoi[0] + state.aoi[1];
     weighted += (state.aoi[0] + 2 * state.aoi[1]) / 3.0;
   }
@@ -89,11 +99,13 @@ TEST(Summary, GivesTheFiguresOfTheBestEvaluatedVersion) {
   FinishedRun run;
   const Json summary = SummaryOf(run);
   const auto version = summary.at("best_version").get<size_t>();
-  const Episode greedy = FlyGreedily(run.world, run.experiment, run.current_versions.at(version));
-  ExpectFigures(summary, greedy.states);
+  const Episode greedy = FlyGreedily(run.experiment, 0, run.current_versions.at(version));
+  ExpectFigures(summary, StatesIn(greedy));
+  EXPECT_EQ(summary.at("score"), summary.at("average_aoi"));
+  EXPECT_EQ(summary.at("success"), 1);
+  EXPECT_EQ(summary.at("evaluation_episodes"), 1);
   for (const Evaluation& evaluation : run.evaluations) {
-    EXPECT_GE(evaluation.figures.total_aoi, 0);
-    EXPECT_GE(evaluation.figures.average_aoi, summary.at("average_aoi").get<double>());
+    EXPECT_TRUE(evaluation.success == 0 || evaluation.score() >= summary.at("average_aoi").get<double>());
   }
 }
 
@@ -101,15 +113,17 @@ TEST(Summary, GivesTheFiguresOfBothBaselines) {
   const RecordedRun run;
   const Json baselines = SummaryOf(run).at("baselines");
   EXPECT_EQ(baselines.size(), 2u);
+  EXPECT_EQ(baselines.at("aoi").at("title"), "AoI-based");
+  EXPECT_EQ(baselines.at("distance").at("title"), "distance-based");
   for (const auto& [name, kind] :
        {std::pair("aoi", BaselineKind::kAoi), std::pair("distance", BaselineKind::kDistance)}) {
-    ExpectFigures(baselines.at(name), FlyBaseline(run.world, kind).states);
+    ExpectFigures(baselines.at(name), StatesIn(FlyBaseline(UavWorldOf(run), kind)));
   }
 }
 
 /// The optimum of the small field, or as if the search had been ended early.
 std::shared_ptr<const Plan> PlanOf(const RecordedRun& run, bool proved) {
-  Plan plan = PlanOptimally(run.world);
+  Plan plan = PlanOptimally(UavWorldOf(run));
   if (!proved) {
     plan.optimal = false;
     plan.lower_bound_average_aoi *= 0.75;
@@ -121,7 +135,7 @@ TEST(Summary, GivesTheOptimumAndTheGapToIt) {
   FinishedRun run;
   const auto plan = PlanOf(run, true);
   const Json summary = SummaryOf(run, 1, plan);
-  const AoiFigures optimal = Figures(run.world, plan->flight);
+  const AoiFigures optimal = Figures(run, plan->flight);
   EXPECT_EQ(summary.at("optimal_total_aoi"), optimal.total_aoi);
   EXPECT_EQ(summary.at("optimal_average_aoi"), optimal.average_aoi);
   const double average_aoi = summary.at("average_aoi").get<double>();
@@ -136,8 +150,8 @@ TEST(Summary, HasALowerBoundAndNoGapIfTheOptimumIsNotProved) {
   EXPECT_TRUE(summary.at("optimal_total_aoi").is_null());
   EXPECT_TRUE(summary.at("optimal_average_aoi").is_null());
   EXPECT_EQ(summary.at("lower_bound_average_aoi"), plan->lower_bound_average_aoi);
-  EXPECT_EQ(summary.at("best_found_total_aoi"), Figures(run.world, plan->flight).total_aoi);
-  EXPECT_EQ(summary.at("best_found_average_aoi"), Figures(run.world, plan->flight).average_aoi);
+  EXPECT_EQ(summary.at("best_found_total_aoi"), Figures(run, plan->flight).total_aoi);
+  EXPECT_EQ(summary.at("best_found_average_aoi"), Figures(run, plan->flight).average_aoi);
   EXPECT_TRUE(summary.at("gap_percent").is_null());
 }
 
@@ -170,12 +184,12 @@ TEST(Summary, WritesTheOptimumAsActionsThatFlyIt) {
   const auto plan = PlanOf(run, true);
   const Json optimum = Json::parse(OptimumJson(run.world, *plan));
   size_t next = 0;
-  const Episode flight = Fly(run.world, [&](const Environment&) {
-    return run.world.ActionAt(optimum.at("actions").at(next++).get<int>());
+  const Episode flight = Fly(UavWorldOf(run), [&](const UavEnvironment&) {
+    return UavWorldOf(run).ActionAt(optimum.at("actions").at(next++).get<int>());
   });
-  EXPECT_TRUE(flight.arrived());
+  EXPECT_TRUE(Arrived(flight));
   EXPECT_EQ(next, optimum.at("actions").size());
-  EXPECT_EQ(Figures(run.world, flight).total_aoi, optimum.at("total_aoi"));
+  EXPECT_EQ(Figures(run, flight).total_aoi, optimum.at("total_aoi"));
   EXPECT_EQ(optimum.at("optimal"), true);
 }
 
@@ -192,13 +206,91 @@ TEST(Summary, HasNoFiguresBeforeTheFirstEvaluation) {
   RecordedRun run;
   run.Commit(run.Fly(run.next()));
   const Json summary = SummaryOf(run);
-  for (const char* field : {"total_aoi", "average_aoi", "sum_aoi", "arrived"}) {
+  for (const char* field :
+       {"total_aoi", "average_aoi", "sum_aoi", "arrived", "score", "success", "best_version"}) {
     EXPECT_TRUE(summary.at(field).is_null()) << field;
   }
   EXPECT_EQ(summary.at("completed"), false);
   EXPECT_EQ(summary.at("episodes"), 1);
   EXPECT_EQ(summary.at("updates"), 0);
   EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(Crc32c(SpanOf(run.weights.front()))));
+}
+
+TEST(Summary, NamesTheWorldAndItsFigures) {
+  EXPECT_EQ(SummaryOf(RecordedRun()).at("world"),
+            Json::parse(R"({"name": "uav", "success": "arrived", "figures": [
+    {"name": "average_aoi", "unit": "slots"}, {"name": "total_aoi", "unit": "slots"},
+    {"name": "sum_aoi", "unit": "slots"}]})"));
+}
+
+std::set<std::string> KeysOf(const Json& json) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : json.items()) {
+    keys.insert(key);
+  }
+  return keys;
+}
+
+TEST(CartPoleSummary, HasNothingOfAnOptimumOrBaselines) {
+  const FinishedRun run(SmallCartPole());
+  const Json summary = SummaryOf(run);
+  EXPECT_EQ(KeysOf(summary), (std::set<std::string>{"run_id",
+                                                    "config_hash",
+                                                    "seed",
+                                                    "completed",
+                                                    "episodes",
+                                                    "transitions",
+                                                    "updates",
+                                                    "wall_s",
+                                                    "score",
+                                                    "success",
+                                                    "return",
+                                                    "balanced",
+                                                    "updates_per_s",
+                                                    "transitions_per_s",
+                                                    "world",
+                                                    "best_version",
+                                                    "bus",
+                                                    "weights_crc32c",
+                                                    "checkpoints",
+                                                    "staleness_updates",
+                                                    "resumptions",
+                                                    "software_version",
+                                                    "evaluation_episodes"}));
+  EXPECT_EQ(summary.at("world"), Json::parse(R"({"name": "cartpole", "success": "balanced",
+    "figures": [{"name": "return", "unit": ""}]})"));
+  EXPECT_TRUE(IsFinished(summary.dump()));
+}
+
+// In CartPole an episode's figure is the number of its steps, and it succeeds with the most of these.
+TEST(CartPoleSummary, GivesTheMeansOfFreshEpisodesWithTheBestVersion) {
+  const FinishedRun run(SmallCartPole());
+  const Json summary = SummaryOf(run);
+  EXPECT_EQ(summary.at("evaluation_episodes"), 3);
+  const auto version = summary.at("best_version").get<size_t>();
+  double steps = 0;
+  int balanced = 0;
+  for (size_t i = run.orders.size() - 3; i < run.orders.size(); ++i) {  // the last orders of a run are these
+    const Order& order = run.orders.at(i);
+    EXPECT_EQ(order.kind, OrderKind::kEvaluate);
+    const auto delivered = static_cast<size_t>(order.current_version);
+    EXPECT_TRUE(*run.current_versions.at(delivered) == *run.current_versions.at(version));
+    const Episode episode = FlyGreedily(run.experiment, order.seed, run.current_versions.at(delivered));
+    steps += episode.transitions();
+    balanced += episode.transitions() == 12 ? 1 : 0;
+  }
+  EXPECT_NEAR(summary.at("return").get<double>(), steps / 3, 1e-12);
+  EXPECT_EQ(summary.at("score"), summary.at("return"));
+  EXPECT_NEAR(summary.at("success").get<double>(), balanced / 3.0, 1e-12);
+  EXPECT_EQ(summary.at("balanced"), balanced == 3);
+}
+
+TEST(CartPoleSummary, HasNoFiguresBeforeTheFirstEvaluation) {
+  const RecordedRun run(SmallCartPole());
+  const Json summary = SummaryOf(run);
+  for (const char* field : {"return", "balanced", "score", "success", "best_version"}) {
+    EXPECT_TRUE(summary.at(field).is_null()) << field;
+  }
 }
 
 TEST(Summary, WritesEveryBitOfLargeRunIdsAndSeeds) {

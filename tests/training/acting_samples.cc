@@ -52,13 +52,13 @@ FlightPlan PlanOf(const Experiment& experiment, int64_t index, double epsilon, u
   return {TrainOrder(index, epsilon), SampleNetwork(experiment, current), SampleNetwork(experiment, target)};
 }
 
-OrderResult FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan) {
-  return FlyTogether(world, experiment, 1, {plan}, 1).at(plan.order.index);
+OrderResult FlyAlone(const Experiment& experiment, const FlightPlan& plan) {
+  return FlyTogether(experiment, 1, {plan}, 1).at(plan.order.index);
 }
 
-std::map<int64_t, OrderResult> FlyTogether(const World& world, const Experiment& experiment, int capacity,
+std::map<int64_t, OrderResult> FlyTogether(const Experiment& experiment, int capacity,
                                            const std::vector<FlightPlan>& plans, int per_slot) {
-  Flyer flyer(world, experiment, capacity);
+  Flyer flyer(experiment, capacity);
   std::map<int64_t, OrderResult> flown;
   auto next = plans.begin();
   while (next != plans.end() || !flyer.Idle()) {
@@ -71,13 +71,10 @@ std::map<int64_t, OrderResult> FlyTogether(const World& world, const Experiment&
   return flown;
 }
 
-bool SameBits(const Episode& a, const Episode& b) {
-  return a.transitions() == b.transitions() && SameFloats(a.rewards, b.rewards) && IsPartOf(a, 0, b);
-}
-
 bool SameBits(const OrderResult& a, const OrderResult& b) {
-  return a.order_index == b.order_index && a.first_transition == b.first_transition &&
-         SameFloats(a.td_errors, b.td_errors) && SameBits(a.episode, b.episode);
+  return a.order_index == b.order_index && a.seed == b.seed && a.first_transition == b.first_transition &&
+         a.first_field == b.first_field && SameFloats(a.td_errors, b.td_errors) &&
+         SameBits(a.episode, b.episode);
 }
 
 }  // namespace fresco

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "training/flyer.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 
@@ -33,15 +34,14 @@ FlightPlan PlanOf(const Experiment& experiment, int64_t index, double epsilon, u
                   uint32_t target = 0);
 
 /// Flies one order in a flyer of its own.
-OrderResult FlyAlone(const World& world, const Experiment& experiment, const FlightPlan& plan);
+OrderResult FlyAlone(const Experiment& experiment, const FlightPlan& plan);
 
 /// Flies all plans in one flyer, `per_slot` of them started before every slot while there is room.
 /// The results by order.
-std::map<int64_t, OrderResult> FlyTogether(const World& world, const Experiment& experiment, int capacity,
+std::map<int64_t, OrderResult> FlyTogether(const Experiment& experiment, int capacity,
                                            const std::vector<FlightPlan>& plans, int per_slot);
 
-/// Whether everything in two episodes or results is equal, floats by their bits.
-bool SameBits(const Episode& a, const Episode& b);
+/// Whether everything in two results is equal, floats by their bits.
 bool SameBits(const OrderResult& a, const OrderResult& b);
 
 }  // namespace fresco

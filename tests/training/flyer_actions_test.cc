@@ -39,24 +39,24 @@ class FlyerActions : public ::testing::TestWithParam<ActionVariant> {
       plans[index].order = TrainOrder(static_cast<int64_t>(index), epsilon);
     }
     std::vector<Episode> episodes;
-    for (auto& [index, result] : FlyTogether(world_, experiment_, 64, plans, 64)) {
+    for (auto& [index, result] : FlyTogether(experiment_, 64, plans, 64)) {
       episodes.push_back(std::move(result.episode));
     }
     return episodes;
   }
 
   Experiment experiment_ = SmallField(SettingsOf(GetParam()));
-  World world_{experiment_.scenario()};
+  const UavWorld& world_ = RequireUavWorld(experiment_.world(), "the test");
 };
 
 TEST_P(FlyerActions, AreTheLiteralArgmaxAmongAllowedOnesOfAGreedyOrder) {
   int decisive = 0;
   for (uint32_t network = 0; network < 60; ++network) {
     const FlightPlan plan = Plan(network, 0, network);
-    const Episode episode = FlyAlone(world_, experiment_, plan).episode;
-    const auto masks = MasksOf(world_, experiment_, episode);
+    const Episode episode = FlyAlone(experiment_, plan).episode;
+    const auto masks = MasksOf(experiment_, episode);
     for (size_t i = 0; i < episode.actions.size(); ++i) {
-      const Doubles values = LiteralValues(experiment_, *plan.current, episode.states[i]);
+      const Doubles values = LiteralValues(experiment_, *plan.current, StateIn(episode, i));
       if (Lead(values, masks[i]) > kValueRounding) {
         ++decisive;
         EXPECT_EQ(episode.actions[i], LiteralArgmax(values, masks[i])) << network << ", " << i;
@@ -69,8 +69,8 @@ TEST_P(FlyerActions, AreTheLiteralArgmaxAmongAllowedOnesOfAGreedyOrder) {
 TEST_P(FlyerActions, AreTheFirstAllowedOneWhereAllValuesAreEqual) {
   FlightPlan plan = Plan(0, 0);
   plan.current = std::make_shared<const Vector>(Vector::Zero(plan.current->size()));
-  const Episode episode = FlyAlone(world_, experiment_, plan).episode;
-  const auto masks = MasksOf(world_, experiment_, episode);
+  const Episode episode = FlyAlone(experiment_, plan).episode;
+  const auto masks = MasksOf(experiment_, episode);
   for (size_t i = 0; i < episode.actions.size(); ++i) {
     EXPECT_EQ(episode.actions[i], std::find(masks[i].begin(), masks[i].end(), 1) - masks[i].begin());
   }
@@ -83,7 +83,7 @@ TEST_P(FlyerActions, AreUniformAmongAllowedOnesInTheFirstSlotWithEpsilonOne) {
   for (const Episode& episode : episodes) {
     ++taken[static_cast<size_t>(episode.actions[0])];
   }
-  const Mask mask = MasksOf(world_, experiment_, episodes[0])[0];  // every episode begins alike
+  const Mask mask = MasksOf(experiment_, episodes[0])[0];  // every episode begins alike
   const double share = 1.0 / Allowed(mask);
   for (size_t action = 0; action < taken.size(); ++action) {
     const double expected = mask[action] != 0 ? kOrders * share : 0;
@@ -95,7 +95,7 @@ TEST_P(FlyerActions, AreUniformAmongAllowedOnesInLaterSlotsWithEpsilonOne) {
   double surplus = 0;  // of the action's number among the allowed ones over its mean
   double variance = 0;
   for (const Episode& episode : FlyMany(1000, 1)) {
-    const auto masks = MasksOf(world_, experiment_, episode);
+    const auto masks = MasksOf(experiment_, episode);
     for (size_t i = 1; i < episode.actions.size(); ++i) {
       const int allowed = Allowed(masks[i]);
       ASSERT_EQ(masks[i][static_cast<size_t>(episode.actions[i])], 1);
@@ -114,9 +114,9 @@ TEST_P(FlyerActions, DepartFromTheArgmaxAsOftenAsEpsilonSays) {
   double surplus = 0;
   double variance = 0;
   for (const Episode& episode : FlyMany(400, kEpsilon)) {
-    const auto masks = MasksOf(world_, experiment_, episode);
+    const auto masks = MasksOf(experiment_, episode);
     for (size_t i = 0; i < episode.actions.size(); ++i) {
-      const Doubles values = LiteralValues(experiment_, *parameters, episode.states[i]);
+      const Doubles values = LiteralValues(experiment_, *parameters, StateIn(episode, i));
       const double departs = kEpsilon * (1 - 1.0 / Allowed(masks[i]));
       surplus += (episode.actions[i] != LiteralArgmax(values, masks[i])) - departs;
       variance += departs * (1 - departs);
@@ -131,8 +131,8 @@ TEST_P(FlyerActions, OfFlyGreedilyAreThoseOfAnyOrderWithEpsilonZero) {
     FlightPlan plan = Plan(network, 0, network);
     plan.target = plan.current;
     plan.order.seed = network;
-    const Episode ordered = FlyAlone(world_, experiment_, plan).episode;
-    EXPECT_TRUE(SameBits(FlyGreedily(world_, experiment_, plan.current), ordered)) << network;
+    const Episode ordered = FlyAlone(experiment_, plan).episode;
+    EXPECT_TRUE(SameBits(FlyGreedily(experiment_, plan.order.seed, plan.current), ordered)) << network;
   }
 }
 

@@ -30,15 +30,14 @@ class FlyerErrors : public ::testing::TestWithParam<ErrorVariant> {
 
   static constexpr int kOrders = 80;
   Experiment experiment_ = ExperimentOf(GetParam());
-  World world_{experiment_.scenario()};
 };
 
 TEST_P(FlyerErrors, AreYMinusQComputedLiterally) {
   for (int index = 0; index < kOrders; ++index) {
     const FlightPlan plan = Plan(index);
-    const OrderResult result = FlyAlone(world_, experiment_, plan);
+    const OrderResult result = FlyAlone(experiment_, plan);
     const Episode& episode = result.episode;
-    const auto masks = MasksOf(world_, experiment_, episode);
+    const auto masks = MasksOf(experiment_, episode);
     ASSERT_EQ(result.td_errors.size(), episode.actions.size());
     for (int i = 0; i < episode.transitions(); ++i) {
       const Mask& next_mask = masks[static_cast<size_t>(i) + 1];
@@ -53,13 +52,13 @@ TEST_P(FlyerErrors, OfTerminalTransitionsHaveNoBootstrapWhateverTheOutcome) {
   std::set<Outcome> outcomes;
   for (int index = 0; index < kOrders; ++index) {
     const FlightPlan plan = Plan(index);
-    const OrderResult result = FlyAlone(world_, experiment_, plan);
+    const OrderResult result = FlyAlone(experiment_, plan);
     const Episode& episode = result.episode;
-    const State& last = episode.states[episode.states.size() - 2];
+    const UavState last = StateIn(episode, episode.actions.size() - 1);
     const Doubles values = LiteralValues(experiment_, *plan.current, last);
     const double value = values[static_cast<size_t>(episode.actions.back())];
     EXPECT_NEAR(result.td_errors.back(), episode.rewards.back() - value, 1e-5);
-    outcomes.insert(episode.outcome);
+    outcomes.insert(OutcomeOf(episode));
   }
   const std::set<Outcome> expected =
       GetParam().masks ? std::set{Outcome::kArrived} : std::set{Outcome::kOutOfTime, Outcome::kOutOfEnergy};
@@ -69,9 +68,9 @@ TEST_P(FlyerErrors, OfTerminalTransitionsHaveNoBootstrapWhateverTheOutcome) {
 TEST_P(FlyerErrors, AreAllThatTheTargetNetworkChanges) {
   for (int index = 0; index < kOrders; ++index) {
     FlightPlan plan = Plan(index);
-    const OrderResult result = FlyAlone(world_, experiment_, plan);
+    const OrderResult result = FlyAlone(experiment_, plan);
     plan.target = SampleNetwork(experiment_, 1000);
-    const OrderResult other = FlyAlone(world_, experiment_, plan);
+    const OrderResult other = FlyAlone(experiment_, plan);
     EXPECT_EQ(result.td_errors.back(), other.td_errors.back());
     if (result.episode.transitions() > 1) {
       EXPECT_NE(result.td_errors, other.td_errors);
@@ -82,13 +81,14 @@ TEST_P(FlyerErrors, AreAllThatTheTargetNetworkChanges) {
 
 TEST_P(FlyerErrors, BelongToEpisodesThatTheEnvironmentFliesAgain) {
   for (int index = 0; index < kOrders; ++index) {
-    const Episode episode = FlyAlone(world_, experiment_, Plan(index)).episode;
-    const auto masks = MasksOf(world_, experiment_, episode);
+    const FlightPlan plan = Plan(index);
+    const Episode episode = FlyAlone(experiment_, plan).episode;
+    const auto masks = MasksOf(experiment_, episode);
     for (size_t i = 0; i < episode.actions.size(); ++i) {
       EXPECT_EQ(masks[i][static_cast<size_t>(episode.actions[i])], 1);
     }
     Episode again;  // what the environment says of these actions: see tests/worlds/episode_test.cc
-    ASSERT_TRUE(FlyActions(world_, experiment_.mask_options(), episode.actions, again));
+    ASSERT_TRUE(FlyActions(experiment_.world(), plan.order.seed, episode.actions, again));
     EXPECT_TRUE(SameBits(episode, again));
   }
 }

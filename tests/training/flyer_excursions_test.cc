@@ -25,7 +25,7 @@ std::optional<int> LiteralChoice(const Doubles& values, const Mask& mask) {
 }
 
 /// The mask with all moves but one left out.
-Mask WithMove(const World& world, Mask mask, Move move) {
+Mask WithMove(const UavWorld& world, Mask mask, Move move) {
   for (int action = 0; action < world.actions(); ++action) {
     if (world.ActionAt(action).move != move) {
       mask[static_cast<size_t>(action)] = 0;
@@ -46,16 +46,16 @@ class FlyerExcursions : public ::testing::TestWithParam<bool> {
 /// The flyer's rule once more, slot by slot, with the draws that the order's key gives.
 TEST_P(FlyerExcursions, FlyStraightToTheDrawnCellAndScheduleGreedily) {
   const Experiment experiment = FieldWithExcursions(0.6, masks_);
-  const World world(experiment.scenario());
+  const UavWorld& world = RequireUavWorld(experiment.world(), "the test");
   int flown_towards = 0;
   int cut_short = 0;
   for (int index = 0; index < 200; ++index) {
     const FlightPlan plan = PlanOf(experiment, index, 0.3);
-    const Episode episode = FlyAlone(world, experiment, plan).episode;
-    const auto masks = MasksOf(world, experiment, episode);
+    const Episode episode = FlyAlone(experiment, plan).episode;
+    const auto masks = MasksOf(experiment, episode);
     std::optional<Cell> waypoint;
     for (size_t i = 0; i < episode.actions.size(); ++i) {
-      const State& state = episode.states[i];
+      const UavState state = StateIn(episode, i);
       const Doubles values = LiteralValues(experiment, *plan.current, state);
       RandomStream stream(plan.order.seed, RandomPurpose::kActing, static_cast<uint32_t>(state.slot), 0);
       if (waypoint && *waypoint == state.cell) {
@@ -90,7 +90,7 @@ TEST_P(FlyerExcursions, FlyStraightToTheDrawnCellAndScheduleGreedily) {
 
 TEST_P(FlyerExcursions, LeadToEveryCellAlike) {
   const Experiment experiment = FieldWithExcursions(1, masks_);
-  const World world(experiment.scenario());
+  const UavWorld& world = RequireUavWorld(experiment.world(), "the test");
   // With epsilon 1 the first move is that of an excursion. From (0, 0), of the 25 cells, it is east to the 14
   // others with column >= row, north to the 10 with column < row, and a hover to (0, 0) itself.
   constexpr int kOrders = 4000;
@@ -99,7 +99,7 @@ TEST_P(FlyerExcursions, LeadToEveryCellAlike) {
     plans[index].order = TrainOrder(static_cast<int64_t>(index), 1);
   }
   std::array<int, kMoves> moves{};
-  for (const auto& [index, result] : FlyTogether(world, experiment, 64, plans, 64)) {
+  for (const auto& [index, result] : FlyTogether(experiment, 64, plans, 64)) {
     ++moves.at(static_cast<size_t>(world.ActionAt(result.episode.actions[0]).move));
   }
   const auto expect_share = [&](Move move, double share) {
@@ -113,15 +113,14 @@ TEST_P(FlyerExcursions, LeadToEveryCellAlike) {
 
 TEST_P(FlyerExcursions, GiveTheSameBitsInAnyCompany) {
   const Experiment experiment = FieldWithExcursions(0.5, masks_);
-  const World world(experiment.scenario());
   std::vector<FlightPlan> plans;
   for (int index = 0; index < 40; ++index) {
     plans.push_back(PlanOf(experiment, index, (index % 5) / 4.0));
   }
   for (const int per_slot : {1, 3, 40}) {
-    const auto together = FlyTogether(world, experiment, 40, plans, per_slot);
+    const auto together = FlyTogether(experiment, 40, plans, per_slot);
     for (const FlightPlan& plan : plans) {
-      EXPECT_TRUE(SameBits(together.at(plan.order.index), FlyAlone(world, experiment, plan)));
+      EXPECT_TRUE(SameBits(together.at(plan.order.index), FlyAlone(experiment, plan)));
     }
   }
 }
@@ -129,10 +128,9 @@ TEST_P(FlyerExcursions, GiveTheSameBitsInAnyCompany) {
 TEST_P(FlyerExcursions, AreNoneWithEpsilonZero) {
   const Experiment with = FieldWithExcursions(1, masks_);
   const Experiment without = SmallField(masks_);
-  const World world(with.scenario());
   for (uint32_t network = 0; network < 20; ++network) {
     const FlightPlan plan = PlanOf(with, 1, 0, network, network);
-    EXPECT_TRUE(SameBits(FlyAlone(world, with, plan), FlyAlone(world, without, plan)));
+    EXPECT_TRUE(SameBits(FlyAlone(with, plan), FlyAlone(without, plan)));
   }
 }
 

@@ -41,38 +41,36 @@ class FlyerTest : public ::testing::Test {
                                 const std::map<int64_t, OrderResult>& flown) const {
     ASSERT_EQ(flown.size(), plans.size());
     for (const FlightPlan& plan : plans) {
-      EXPECT_TRUE(SameBits(flown.at(plan.order.index), FlyAlone(world_, experiment_, plan)))
-          << plan.order.index;
+      EXPECT_TRUE(SameBits(flown.at(plan.order.index), FlyAlone(experiment_, plan))) << plan.order.index;
     }
   }
 
   Experiment experiment_ = SmallField(WithMasks());
-  World world_{experiment_.scenario()};
 };
 
 TEST_F(FlyerTest, GivesAnEpisodeTheSameBitsInAnyCompany) {
   for (const int company : {2, 5, 8, 9, 31}) {
     const auto plans = Plans(company, 1, 1);
-    ExpectTheBitsOfEachAlone(plans, FlyTogether(world_, experiment_, company, plans, company));
+    ExpectTheBitsOfEachAlone(plans, FlyTogether(experiment_, company, plans, company));
   }
 }
 
 TEST_F(FlyerTest, GivesAnEpisodeTheSameBitsBesideOrdersOfOtherVersions) {
   const auto plans = Plans(40, 3, 2);
-  ExpectTheBitsOfEachAlone(plans, FlyTogether(world_, experiment_, 40, plans, 40));
+  ExpectTheBitsOfEachAlone(plans, FlyTogether(experiment_, 40, plans, 40));
 }
 
 TEST_F(FlyerTest, GivesAnEpisodeTheSameBitsBesideOrdersInOtherSlots) {
   const auto plans = Plans(40, 2, 1);
   for (const int per_slot : {1, 3}) {
-    ExpectTheBitsOfEachAlone(plans, FlyTogether(world_, experiment_, 40, plans, per_slot));
+    ExpectTheBitsOfEachAlone(plans, FlyTogether(experiment_, 40, plans, per_slot));
   }
 }
 
 TEST_F(FlyerTest, GivesAnEpisodeTheSameBitsWithAnyCapacity) {
   const auto plans = Plans(20, 1, 1);
   for (const int capacity : {1, 2, 7, 64}) {
-    ExpectTheBitsOfEachAlone(plans, FlyTogether(world_, experiment_, capacity, plans, capacity));
+    ExpectTheBitsOfEachAlone(plans, FlyTogether(experiment_, capacity, plans, capacity));
   }
 }
 
@@ -83,7 +81,7 @@ TEST_F(FlyerTest, GivesAnEpisodeTheSameBitsWhereverItStandsInTheBatch) {
     for (size_t i = plans.size(); i > 1; --i) {
       std::swap(plans[i - 1], plans[stream.NextBelow(static_cast<uint32_t>(i))]);
     }
-    ExpectTheBitsOfEachAlone(plans, FlyTogether(world_, experiment_, 24, plans, 6));
+    ExpectTheBitsOfEachAlone(plans, FlyTogether(experiment_, 24, plans, 6));
   }
 }
 
@@ -93,7 +91,7 @@ TEST_F(FlyerTest, GivesAnEpisodeTheSameBitsWhenNetworksOfOneNumberDiffer) {
   for (size_t i = 0; i < plans.size(); i += 2) {
     plans[i].current = other;
   }
-  ExpectTheBitsOfEachAlone(plans, FlyTogether(world_, experiment_, 12, plans, 12));
+  ExpectTheBitsOfEachAlone(plans, FlyTogether(experiment_, 12, plans, 12));
 }
 
 TEST_F(FlyerTest, FliesOtherActionsForAnotherSeedAndTheSameAtAnotherIndex) {
@@ -104,29 +102,28 @@ TEST_F(FlyerTest, FliesOtherActionsForAnotherSeedAndTheSameAtAnotherIndex) {
   for (int i = 0; i < kOrders; ++i) {
     FlightPlan other = plan;
     other.order.index = i;
-    EXPECT_EQ(FlyAlone(world_, experiment_, other).episode.actions,
-              FlyAlone(world_, experiment_, plan).episode.actions);
+    EXPECT_EQ(FlyAlone(experiment_, other).episode.actions, FlyAlone(experiment_, plan).episode.actions);
     other.order.seed = 1000 + static_cast<uint64_t>(i);
-    flights.insert(FlyAlone(world_, experiment_, other).episode.actions);
+    flights.insert(FlyAlone(experiment_, other).episode.actions);
     other.order.seed = static_cast<uint64_t>(i + 1) << 32;  // the high word counts as well
-    flights.insert(FlyAlone(world_, experiment_, other).episode.actions);
+    flights.insert(FlyAlone(experiment_, other).episode.actions);
   }
   EXPECT_EQ(flights.size(), 2u * kOrders);
 }
 
 TEST_F(FlyerTest, TakesNothingFromTheKindAndTheNumbersOfVersions) {
   for (FlightPlan plan : Plans(5, 1, 1)) {
-    const OrderResult flown = FlyAlone(world_, experiment_, plan);
+    const OrderResult flown = FlyAlone(experiment_, plan);
     plan.order.kind = OrderKind::kEvaluate;
     plan.order.current_version = 12;
     plan.order.target_version = 4;
-    EXPECT_TRUE(SameBits(FlyAlone(world_, experiment_, plan), flown));
+    EXPECT_TRUE(SameBits(FlyAlone(experiment_, plan), flown));
   }
 }
 
 TEST_F(FlyerTest, KnowsWhatItFliesAndWhetherThereIsRoom) {
   const auto plans = Plans(2, 1, 1);
-  Flyer flyer(world_, experiment_, 2);
+  Flyer flyer(experiment_, 2);
   EXPECT_TRUE(flyer.Idle());
   for (const FlightPlan& plan : plans) {
     EXPECT_TRUE(flyer.HasRoom());
@@ -142,7 +139,7 @@ using FlyerDeathTest = FlyerTest;
 
 TEST_F(FlyerDeathTest, RefusesAnOrderWithoutRoomForIt) {
   const FlightPlan plan = Plans(1, 1, 1).front();
-  Flyer flyer(world_, experiment_, 1);
+  Flyer flyer(experiment_, 1);
   flyer.Start(plan.order, plan.current, plan.target);
   EXPECT_DEATH(flyer.Start(plan.order, plan.current, plan.target), "HasRoom");
 }

@@ -8,16 +8,19 @@
 #include "core/random.h"
 #include "tests/training/acting_samples.h"
 #include "tests/training/literal_run.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
 
+/// Field `field` of state i.
+float& FieldOf(Episode& episode, size_t i, size_t field) {
+  return episode.states[i * (episode.states.size() / (episode.actions.size() + 1)) + field];
+}
+
 class LedgerTest : public ::testing::Test {
  protected:
-  LedgerTest()
-      : experiment_(SmallExperiment()),
-        world_(experiment_.scenario()),
-        ledger_(world_, experiment_.mask_options()) {
+  LedgerTest() : experiment_(SmallExperiment()), world_(experiment_.world()), ledger_(world_) {
     const auto parameters = std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1));
     for (int64_t index = 0; index < kOrders; ++index) {
       Order order;
@@ -25,7 +28,7 @@ class LedgerTest : public ::testing::Test {
       order.epsilon = 0.7;
       order.seed = 3 + static_cast<uint64_t>(index);
       ledger_.Write(order);
-      results_.push_back(FlyOrder(world_, experiment_, order, parameters, parameters));
+      results_.push_back(FlyOrder(experiment_, order, parameters, parameters));
       const int transitions = results_.back().episode.transitions();
       for (int first = 0; first < transitions; first += 5) {
         parts_.push_back(PartOf(world_, results_.back(), first, std::min(5, transitions - first)));
@@ -35,7 +38,7 @@ class LedgerTest : public ::testing::Test {
 
   static constexpr int64_t kOrders = 6;
   Experiment experiment_;
-  World world_;
+  const World& world_;
   Ledger ledger_;
   std::vector<OrderResult> results_;
   std::vector<OrderResult> parts_;
@@ -84,31 +87,36 @@ TEST_F(LedgerTest, TakesPartsThatOverlapAsLongAsTheyAgree) {
   EXPECT_TRUE(SameBits(ledger_.TakeNext()->episode, results_[0].episode));
 }
 
-TEST_F(LedgerTest, KeepsNoMoreThanTwoEpisodesForAnOrder) {
-  Ledger::Arrival arrival = Ledger::Arrival::kAccepted;
-  int kept = 0;
-  for (int last = 1; arrival == Ledger::Arrival::kAccepted; ++last) {  // each brings one transition more
-    kept += last;
-    arrival = ledger_.Add(PartOf(world_, results_[0], 0, last));
+TEST_F(LedgerTest, TakesPartsThatGrowByATransitionEach) {
+  const int transitions = results_[0].episode.transitions();
+  for (int last = 1; last < transitions; ++last) {
+    EXPECT_EQ(ledger_.Add(PartOf(world_, results_[0], 0, last)), Ledger::Arrival::kAccepted);
   }
-  EXPECT_EQ(arrival, Ledger::Arrival::kInconsistent);
-  EXPECT_GT(kept, 2 * world_.maximum_transitions());
-  EXPECT_LT(kept, 3 * world_.maximum_transitions());
+  EXPECT_EQ(ledger_.Add(results_[0]), Ledger::Arrival::kCompleted);
+  EXPECT_TRUE(SameBits(ledger_.TakeNext()->episode, results_[0].episode));
+}
+
+TEST_F(LedgerTest, RefusesTheEpisodeOfAnotherSeed) {
+  OrderResult other = results_[0];
+  other.seed = results_[1].seed;
+  EXPECT_EQ(ledger_.Add(other), Ledger::Arrival::kInconsistent);
+  EXPECT_EQ(ledger_.Add(parts_[0]), Ledger::Arrival::kAccepted);
+  EXPECT_EQ(ledger_.Add(PartOf(world_, other, 5, 5)), Ledger::Arrival::kInconsistent);
+  EXPECT_EQ(ledger_.Add(parts_[0]), Ledger::Arrival::kAccepted) << "what had arrived was dropped";
   EXPECT_EQ(ledger_.Add(results_[0]), Ledger::Arrival::kCompleted);
 }
 
 TEST_F(LedgerTest, RefusesWhatDoesNotFollowFromItsActionsAndTakesItRightLater) {
   const std::vector<std::function<void(Episode&)>> lies = {
       [](Episode& episode) { episode.rewards[3] += 0.01f; },
-      [](Episode& episode) { episode.states[4].aoi[1] = 1 + episode.states[4].aoi[1] % 3; },
-      [](Episode& episode) { episode.states[2].energy_margin_j += 1; },
-      [](Episode& episode) { episode.states[5].time_margin += 1; },
+      [](Episode& episode) { FieldOf(episode, 4, kAoiField + 1) += 1; },
+      [](Episode& episode) { FieldOf(episode, 2, kEnergyMarginField) += 1; },
+      [](Episode& episode) { FieldOf(episode, 5, kTimeMarginField) += 1; },
+      [](Episode& episode) { FieldOf(episode, 0, kColumnField) += 1; },
+      [](Episode& episode) { FieldOf(episode, 13, kRowField) = -FieldOf(episode, 13, kRowField); },
       [](Episode& episode) { episode.next_masks[1] ^= 1; },
-      [](Episode& episode) { episode.outcome = Outcome::kOutOfTime; },
-      [](Episode& episode) {
-        std::swap(episode.states[0].cell.column, episode.states[3].cell.row);
-        episode.states[0].cell.column += 1;
-      },
+      [](Episode& episode) { episode.ending = Ending::kTruncated; },
+      [](Episode& episode) { std::swap(episode.actions[1], episode.actions[2]); },
   };
   for (const auto& lie : lies) {
     OrderResult false_result = results_[0];

@@ -6,8 +6,8 @@
 
 namespace fresco {
 
-Doubles LiteralValues(const Experiment& experiment, const Vector& parameters, const State& state) {
-  const Scenario& scenario = experiment.scenario();
+Doubles LiteralValues(const Experiment& experiment, const Vector& parameters, const UavState& state) {
+  const Scenario& scenario = RequireUavWorld(experiment.world(), "the test").scenario();
   Doubles input = {state.cell.column / (scenario.columns - 1.0), state.cell.row / (scenario.rows - 1.0)};
   for (const int16_t aoi : state.aoi) {
     input.push_back(static_cast<double>(aoi) / scenario.slots);
@@ -53,16 +53,18 @@ double Lead(const Doubles& values, const Mask& mask) {
   return allowed.size() < 2 ? std::numeric_limits<double>::infinity() : allowed[0] - allowed[1];
 }
 
-std::vector<Mask> MasksOf(const World& world, const Experiment& experiment, const Episode& episode) {
-  Environment environment(world);
+std::vector<Mask> MasksOf(const Experiment& experiment, const Episode& episode) {
+  const UavWorld& world = RequireUavWorld(experiment.world(), "the test");
+  UavEnvironment environment(world);
+  environment.Reset();
   Mask mask(static_cast<size_t>(world.actions()));
   std::vector<Mask> masks;
   for (const int16_t action : episode.actions) {
-    environment.WriteMask(experiment.mask_options(), mask);
+    environment.WriteMask(mask);
     masks.push_back(mask);
     environment.Step(world.ActionAt(action));
   }
-  environment.WriteMask(experiment.mask_options(), mask);
+  environment.WriteMask(mask);
   masks.push_back(mask);
   return masks;
 }
@@ -70,10 +72,10 @@ std::vector<Mask> MasksOf(const World& world, const Experiment& experiment, cons
 double LiteralTdError(const Experiment& experiment, const FlightPlan& plan, const Episode& episode,
                       int transition, const Mask& next_mask) {
   const auto i = static_cast<size_t>(transition);
-  const Doubles values = LiteralValues(experiment, *plan.current, episode.states[i]);
+  const Doubles values = LiteralValues(experiment, *plan.current, StateIn(episode, i));
   double y = episode.rewards[i];
   if (transition + 1 < episode.transitions()) {
-    const State& next = episode.states[i + 1];
+    const UavState next = StateIn(episode, i + 1);
     const Doubles target_values = LiteralValues(experiment, *plan.target, next);
     const Doubles choosing =
         experiment.agent().double_dqn() ? LiteralValues(experiment, *plan.current, next) : target_values;

@@ -5,6 +5,7 @@
 
 #include "tests/nn/literal_network.h"
 #include "tests/training/acting_samples.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 
@@ -17,7 +18,7 @@ inline constexpr double kValueRounding = 1e-5;
 inline constexpr double kDeviations = 5;
 
 /// Q(s, .) of a network.
-Doubles LiteralValues(const Experiment& experiment, const Vector& parameters, const State& state);
+Doubles LiteralValues(const Experiment& experiment, const Vector& parameters, const UavState& state);
 
 /// The allowed action of the largest value; the first of equal ones.
 int LiteralArgmax(const Doubles& values, const Mask& mask);
@@ -26,7 +27,7 @@ int LiteralArgmax(const Doubles& values, const Mask& mask);
 double Lead(const Doubles& values, const Mask& mask);
 
 /// The mask in each of the episode's states, from flying its actions again.
-std::vector<Mask> MasksOf(const World& world, const Experiment& experiment, const Episode& episode);
+std::vector<Mask> MasksOf(const Experiment& experiment, const Episode& episode);
 
 /// y - Q(s, a) of a transition; `next_mask` is that of s'.
 double LiteralTdError(const Experiment& experiment, const FlightPlan& plan, const Episode& episode,

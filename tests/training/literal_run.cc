@@ -32,9 +32,23 @@ Experiment SmallExperiment(const Settings& settings) {
                            "the small experiment", settings);
 }
 
-OrderResult FlyOrder(const World& world, const Experiment& experiment, const Order& order,
-                     std::shared_ptr<const Vector> current, std::shared_ptr<const Vector> target) {
-  Flyer flyer(world, experiment, 1);
+Experiment SmallCartPole(const Settings& settings) {
+  return Experiment::Parse(R"(
+      cartpole { maximum_steps: 12 }
+      agent {
+        hidden_layers: [8] double_dqn: true batch_size: 16 replay_capacity: 150 target_update_period: 20
+        linear { initial: 1e-2 final: 1e-4 }
+      }
+      schedule {
+        seed: 5 episodes: 50 inserts_per_update: 2 minimum_replay_size: 40 window: 6
+        updates_per_version: 7 versions_per_evaluation: 4 evaluation_episodes: 3 ladder { exponent: 2 }
+      })",
+                           "the small CartPole", settings);
+}
+
+OrderResult FlyOrder(const Experiment& experiment, const Order& order, std::shared_ptr<const Vector> current,
+                     std::shared_ptr<const Vector> target) {
+  Flyer flyer(experiment, 1);
   flyer.Start(order, std::move(current), std::move(target));
   OrderResult flown;
   while (!flyer.Idle()) {
@@ -43,12 +57,11 @@ OrderResult FlyOrder(const World& world, const Experiment& experiment, const Ord
   return flown;
 }
 
-OrderResult ResultOf(int64_t order_index, const Episode& episode) {
-  return {order_index, 0, episode, std::vector<float>(episode.actions.size(), 0.0f)};
+OrderResult ResultOf(const Order& order, const Episode& episode) {
+  return {order.index, order.seed, 0, 0, episode, std::vector<float>(episode.actions.size(), 0.0f)};
 }
 
 RunResult RunInOneLoop(const Experiment& experiment) {
-  const World world(experiment.scenario());
   std::deque<Order> orders;
   std::map<NetworkVersion, std::shared_ptr<const Vector>> versions;
   RunResult result;
@@ -58,31 +71,35 @@ RunResult RunInOneLoop(const Experiment& experiment) {
     versions[version] = std::move(parameters);
   };
   output.evaluation = [&](const Evaluation&) { ++result.evaluations; };
-  Trainer trainer(experiment, world, output);
+  Trainer trainer(experiment, output);
   trainer.Begin();
   while (!trainer.finished()) {
     const Order order = orders.front();
     orders.pop_front();
-    trainer.Commit(
-        order, FlyOrder(world, experiment, order, versions.at({NetworkKind::kCurrent, order.current_version}),
-                        versions.at({NetworkKind::kTarget, order.target_version}))
-                   .episode);
+    trainer.Commit(order,
+                   FlyOrder(experiment, order, versions.at({NetworkKind::kCurrent, order.current_version}),
+                            versions.at({NetworkKind::kTarget, order.target_version}))
+                       .episode);
   }
   result.weights = trainer.current();
   result.updates = trainer.progress().updates;
-  result.best_average_aoi = trainer.best()->evaluation.figures.average_aoi;
+  result.best_score = trainer.best()->evaluation.score();
+  if (trainer.delivered()) {
+    result.delivered_score = trainer.delivered()->score();
+  }
   return result;
 }
 
 OrderResult PartOf(const World& world, const OrderResult& result, int first, int count) {
   const auto begin = result.td_errors.begin() + first;
-  return {result.order_index, first, PartOf(world, result.episode, first, count), {begin, begin + count}};
+  return {result.order_index,    result.seed, first, 0, PartOf(world, result.episode, first, count),
+          {begin, begin + count}};
 }
 
-RecordedRun::RecordedRun(const Settings& settings)
-    : experiment(SmallExperiment(settings)),
-      world(experiment.scenario()),
-      trainer(experiment, world, Output()) {
+RecordedRun::RecordedRun(const Settings& settings) : RecordedRun(SmallExperiment(settings)) {}
+
+RecordedRun::RecordedRun(const Experiment& the_experiment)
+    : experiment(the_experiment), world(experiment.world()), trainer(experiment, Output()) {
   weights.push_back(trainer.current());
   trainer.Begin();
   orders_at_begin = orders.size();
@@ -102,13 +119,13 @@ TrainerOutput RecordedRun::Output() {
 }
 
 Episode RecordedRun::Fly(const Order& order) const {
-  return FlyOrder(world, experiment, order, current_versions.at(static_cast<size_t>(order.current_version)),
+  return FlyOrder(experiment, order, current_versions.at(static_cast<size_t>(order.current_version)),
                   target_versions.at(static_cast<size_t>(order.target_version)))
       .episode;
 }
 
 void RecordedRun::Commit(Episode episode) {
-  constexpr size_t kEndless = 1000;  // orders; a run of 60 episodes has fewer
+  constexpr size_t kEndless = 1000;  // orders; the small runs have fewer
   FRESCO_CHECK(episodes.size() < kEndless);
   const Order order = next();
   trainer.Commit(order, episode);

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace fresco {
@@ -169,47 +171,48 @@ TEST(ReplayMemoryDeathTest, ChecksTheSizesOfATransition) {
   EXPECT_DEATH(memory.Insert({observation, observation, 0, 0, false, shorter}), "next_mask.size");
 }
 
-/// Every episode in a list, and from it what the history must give.
-class LiteralHistory {
- public:
-  void Add(const std::vector<int16_t>& episode) { episodes_.push_back(episode); }
-
-  std::vector<int16_t> Actions(size_t capacity) const {
-    std::vector<int16_t> actions;
-    for (auto episode = episodes_.rbegin(); episode != episodes_.rend() && actions.size() < capacity;
-         ++episode) {
-      actions.insert(actions.begin(), episode->begin(), episode->end());
-    }
-    return actions;
-  }
-
- private:
-  std::vector<std::vector<int16_t>> episodes_;
-};
-
-TEST(ActionHistory, IsEmptyAtFirst) {
-  EXPECT_TRUE(ActionHistory(10, 4).Actions().empty());
+/// An episode of so many transitions, with nothing in it but a number to know it by.
+std::shared_ptr<const Episode> NumberedEpisode(int number, size_t transitions) {
+  Episode episode;
+  episode.ending = Ending::kTerminal;
+  episode.actions.assign(transitions, static_cast<int16_t>(number));
+  return std::make_shared<const Episode>(std::move(episode));
 }
 
-TEST(ActionHistory, KeepsWholeEpisodesDownToTheOldestTransitionInTheReplayMemory) {
+TEST(EpisodeHistory, IsEmptyAtFirst) {
+  EXPECT_TRUE(EpisodeHistory(10).episodes().empty());
+}
+
+TEST(EpisodeHistory, KeepsWholeEpisodesDownToTheOldestTransitionInTheReplayMemory) {
   constexpr int kLongest = 9;
   for (const int capacity : {1, 8, 9, 10, 57}) {
     RandomStream stream(4, RandomPurpose::kTest, static_cast<uint32_t>(capacity), 0);
-    ActionHistory history(capacity, kLongest);
-    LiteralHistory literal;
+    EpisodeHistory history(capacity);
+    std::vector<std::shared_ptr<const Episode>> all;
     for (int number = 0; number < 60; ++number) {
-      std::vector<int16_t> episode(1 + stream.NextBelow(kLongest));
-      for (int16_t& action : episode) {
-        action = static_cast<int16_t>(stream.NextBelow(20));
+      all.push_back(NumberedEpisode(number, 1 + stream.NextBelow(kLongest)));
+      history.Add(all.back());
+      std::vector<std::shared_ptr<const Episode>> expected;  // from the newest back, until they are enough
+      for (int transitions = 0; transitions < capacity && expected.size() < all.size();) {
+        expected.insert(expected.begin(), all[all.size() - 1 - expected.size()]);
+        transitions += expected.front()->transitions();
       }
-      for (size_t i = 0; i < episode.size(); ++i) {
-        history.Add(episode[i], i + 1 == episode.size());
-      }
-      literal.Add(episode);
-      ASSERT_EQ(history.Actions(), literal.Actions(static_cast<size_t>(capacity)))
-          << capacity << ", " << number;
+      ASSERT_EQ(history.episodes(), expected) << capacity << ", " << number;
     }
   }
+}
+
+TEST(EpisodeHistory, ForgetsTheEpisodesThatItDoesNotKeep) {
+  EpisodeHistory history(7);
+  const std::weak_ptr<const Episode> first = [&] {
+    const auto episode = NumberedEpisode(0, 5);
+    history.Add(episode);
+    return std::weak_ptr(episode);
+  }();
+  history.Add(NumberedEpisode(1, 6));
+  EXPECT_FALSE(first.expired()) << "its last transition is one of the latest seven";
+  history.Add(NumberedEpisode(2, 1));
+  EXPECT_TRUE(first.expired());
 }
 
 }  // namespace

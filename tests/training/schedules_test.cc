@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <vector>
 
 #include "core/random.h"
@@ -15,6 +16,23 @@ TEST(Schedules, DrawEveryEpisodesSeedFromAPlaceOfItsOwn) {
   const uint64_t seed = 0x0123456789ABCDEF;
   const auto block = Philox4x32({0, 7, 9, 6}, {0x89ABCDEF, 0x01234567});
   EXPECT_EQ(EpisodeSeed(seed, (int64_t{7} << 32) + 9), uint64_t{block[0]} << 32 | block[1]);
+}
+
+TEST(Schedules, DrawTheSeedsOfEvaluationsFromPlacesOfTheirOwn) {
+  const uint64_t seed = 0x0123456789ABCDEF;
+  const auto block = Philox4x32({0, 7, 9, 8}, {0x89ABCDEF, 0x01234567});  // purpose 8
+  EXPECT_EQ(EvaluationSeed(seed, (int64_t{7} << 32) + 9), uint64_t{block[0]} << 32 | block[1]);
+}
+
+TEST(Schedules, GiveNoTwoEpisodesTheSameSeed) {
+  constexpr int64_t kEpisodes = 10'000;
+  std::set<uint64_t> seeds;
+  for (int64_t episode = 0; episode < kEpisodes; ++episode) {
+    seeds.insert(EpisodeSeed(3, episode));
+    seeds.insert(EvaluationSeed(3, episode));
+    seeds.insert(EvaluationSeed(4, episode));
+  }
+  EXPECT_EQ(seeds.size(), 3u * kEpisodes);
 }
 
 TEST(Schedules, ClimbTheLadderOfApeX) {

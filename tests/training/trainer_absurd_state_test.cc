@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -14,12 +16,13 @@
 namespace fresco {
 namespace {
 
-class AbsurdState : public ::testing::Test {
+/// The parameter says whether the world is CartPole or the field.
+class AbsurdState : public ::testing::TestWithParam<bool> {
  protected:
   AbsurdState() {
-    RecordedRun run;
+    RecordedRun run(whole_.experiment);
     for (size_t committed = 0; committed < whole_.episodes.size(); ++committed) {
-      if (committed % 9 == 0 || committed + 2 > whole_.episodes.size()) {
+      if (committed % 9 == 0 || committed + 5 > whole_.episodes.size()) {
         states_.push_back(run.trainer.Save());
       }
       run.Commit(whole_.episodes[committed]);
@@ -78,15 +81,61 @@ class AbsurdState : public ::testing::Test {
     }
   }
 
+  /// Makes another episode of one that is in the replay memory, or leaves some out.
+  void ChangeReplay(std::vector<std::shared_ptr<const Episode>>& replay) {
+    if (replay.empty()) {
+      replay.push_back(std::make_shared<const Episode>());
+      return;
+    }
+    const uint32_t position = stream_.NextBelow(static_cast<uint32_t>(replay.size()));
+    Episode episode = *replay[position];
+    switch (stream_.NextBelow(6)) {
+      case 0:
+        replay.resize(position);
+        return;
+      case 1:
+        replay.erase(replay.begin());
+        return;
+      case 2:
+        Change(episode.actions[stream_.NextBelow(static_cast<uint32_t>(episode.actions.size()))]);
+        break;
+      case 3:
+        episode.actions.resize(stream_.NextBelow(20));
+        break;
+      case 4:
+        episode.states.resize(stream_.NextBelow(100));
+        break;
+      default:
+        episode.ending = static_cast<Ending>(stream_.NextBelow(3));
+    }
+    replay[position] = std::make_shared<const Episode>(std::move(episode));
+  }
+
+  void ChangeEvaluations(TrainingState& state) {
+    switch (stream_.NextBelow(5)) {
+      case 0:
+        return Change(state.partial_evaluation.episodes);
+      case 1:
+        return Change(state.partial_evaluation.successes);
+      case 2:
+        state.partial_evaluation.figures.resize(stream_.NextBelow(5));
+        return;
+      case 3:
+        state.progress.delivering = !state.progress.delivering;
+        return;
+      default:
+        state.best.reset();
+    }
+  }
+
   void ChangeOther(TrainingState& state) {
     switch (stream_.NextBelow(4)) {
       case 0:
         return Change(state.adam.steps);
       case 1:
-        return state.actions.empty() ? state.actions.push_back(0) : state.actions.pop_back();
+        return ChangeReplay(state.replay);
       case 2:
-        state.actions.resize(std::min<size_t>(state.actions.size(), stream_.NextBelow(500)));
-        return;
+        return ChangeEvaluations(state);
       default:
         return Change(
             state.versions[stream_.NextBelow(static_cast<uint32_t>(state.versions.size()))].version.number);
@@ -112,12 +161,12 @@ class AbsurdState : public ::testing::Test {
     }
   }
 
-  const FinishedRun whole_;
+  const FinishedRun whole_{GetParam() ? SmallCartPole() : SmallExperiment()};
   std::vector<TrainingState> states_;
   RandomStream stream_{1, RandomPurpose::kTest, 0, 0};
 };
 
-TEST_F(AbsurdState, IsRefusedOrGoneOnWith) {
+TEST_P(AbsurdState, IsRefusedOrGoneOnWith) {
   constexpr int kTries = kSanitized ? 1000 : 4000;
   int refused = 0;
   for (int i = 0; i < kTries; ++i) {
@@ -127,11 +176,10 @@ TEST_F(AbsurdState, IsRefusedOrGoneOnWith) {
       ChangeSomething(state);
     }
     std::vector<Order> orders;
-    Trainer trainer(whole_.experiment, whole_.world,
-                    {[&](const Order& order) { orders.push_back(order); },
-                     [](NetworkVersion, const std::shared_ptr<const Vector>&) {},
-                     [](const Evaluation&) {},
-                     {}});
+    Trainer trainer(whole_.experiment, {[&](const Order& order) { orders.push_back(order); },
+                                        [](NetworkVersion, const std::shared_ptr<const Vector>&) {},
+                                        [](const Evaluation&) {},
+                                        {}});
     try {
       trainer.Resume(state);
     } catch (const Error&) {
@@ -144,6 +192,9 @@ TEST_F(AbsurdState, IsRefusedOrGoneOnWith) {
   EXPECT_GT(refused, kTries / 2);
   EXPECT_LT(refused, kTries);
 }
+
+INSTANTIATE_TEST_SUITE_P(Worlds, AbsurdState, ::testing::Bool(),
+                         [](const auto& instance) { return instance.param ? "CartPole" : "Field"; });
 
 }  // namespace
 }  // namespace fresco

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tests/training/literal_run.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -14,8 +15,8 @@ namespace {
 double LiteralAverageAoi(const Episode& episode) {
   double sum = 0;
   for (int slot = 1; slot <= 14; ++slot) {
-    const int last = static_cast<int>(episode.states.size());
-    const State& state = episode.states[static_cast<size_t>(std::min(slot, last)) - 1];
+    const int last = episode.transitions() + 1;
+    const UavState state = StateIn(episode, static_cast<size_t>(std::min(slot, last)) - 1);
     const int later = std::max(0, slot - last);
     sum += (std::min(state.aoi[0] + later, 14) + 2 * std::min(state.aoi[1] + later, 14)) / 3.0;
   }
@@ -46,7 +47,7 @@ class TrainerBest : public ::testing::Test {
     const auto same = [&](const Episode& other) {
       return LiteralAverageAoi(other) == LiteralAverageAoi(flight);
     };
-    auto& flights = flight.outcome == Outcome::kArrived ? arrivals_ : failures_;
+    auto& flights = Arrived(flight) ? arrivals_ : failures_;
     if (std::none_of(flights.begin(), flights.end(), same)) {
       flights.push_back(flight);
     }
@@ -61,8 +62,8 @@ class TrainerBest : public ::testing::Test {
     run_.Commit(result);
     EXPECT_EQ(run_.evaluations.back().version, version);
     EXPECT_EQ(run_.evaluations.back().updates, version);
-    EXPECT_EQ(run_.evaluations.back().arrived, result.outcome == Outcome::kArrived);
-    EXPECT_NEAR(run_.evaluations.back().figures.average_aoi, LiteralAverageAoi(result), 1e-12);
+    EXPECT_EQ(run_.evaluations.back().success, Arrived(result) ? 1 : 0);
+    EXPECT_NEAR(run_.evaluations.back().score(), LiteralAverageAoi(result), 1e-12);
     return version;
   }
 
@@ -94,7 +95,7 @@ TEST_F(TrainerBest, ArrivedWhateverTheAoiOfThoseThatDidNot) {
   Evaluate(failures_[0]);
   Evaluate(failures_[1]);
   ExpectBest(arrived);
-  EXPECT_FALSE(run_.trainer.last_evaluation()->arrived);
+  EXPECT_EQ(run_.trainer.last_evaluation()->success, 0);
 }
 
 TEST_F(TrainerBest, HasTheSmallestAverageAoiAndIsTheEarliestOfEquals) {

@@ -76,7 +76,8 @@ TEST(TrainerOrders, KeepTheWindowFullOfTrainingOrdersUntilTheseRunOut) {
     const size_t written = run.orders_written[committed - 1];
     const int64_t episodes = TrainingOrders(run, committed);
     EXPECT_EQ(TrainingOrders(run, written) - episodes, std::min(kWindow, kEpisodes - episodes)) << committed;
-    EXPECT_LE(static_cast<int64_t>(written - committed), MaximumOrdersInFlight(kWindow)) << committed;
+    EXPECT_LE(static_cast<int64_t>(written - committed), MaximumOrdersInFlight(run.experiment.schedule()))
+        << committed;
   }
   EXPECT_EQ(run.orders_written.back(), run.episodes.size());
 }

@@ -9,9 +9,18 @@
 #include <numeric>
 
 #include "tests/training/literal_run.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
+
+/// The state as its fields, in the order of UavWorld's description.
+std::vector<float> FieldsOf(const UavState& state) {
+  std::vector<float> fields = {static_cast<float>(state.cell.column), static_cast<float>(state.cell.row),
+                               static_cast<float>(state.time_margin), state.energy_margin_j};
+  fields.insert(fields.end(), state.aoi.begin(), state.aoi.end());
+  return fields;
+}
 
 /// Algorithm 1 as a loop: every committed transition in one list, the newest 300 drawn from.
 class LiteralTraining {
@@ -23,12 +32,13 @@ class LiteralTraining {
              {true, 1.0f, kBatch, {0.9, 0.999, 1e-8}}) {}
 
   void Take(const Episode& episode) {
-    Environment environment(run_->world);
+    UavEnvironment environment(world_);
+    environment.Reset();
     for (const int16_t action : episode.actions) {
       Row row;
       row.observation = Input(environment);
       row.action = action;
-      row.reward = static_cast<float>(environment.Step(run_->world.ActionAt(action)).reward);
+      row.reward = static_cast<float>(environment.Step(world_.ActionAt(action)).reward);
       row.next_observation = Input(environment);
       row.terminal = environment.outcome() != Outcome::kFlying;
       row.next_mask.resize(static_cast<size_t>(run_->world.actions()));
@@ -60,15 +70,15 @@ class LiteralTraining {
     float least_value = -std::numeric_limits<float>::infinity();
   };
 
-  Vector Input(const Environment& environment) const {
-    Vector input(network_input_.size());
-    network_input_.Write(environment.state(), {input.data(), static_cast<size_t>(input.size())});
+  Vector Input(const UavEnvironment& environment) const {
+    Vector input(inputs_);
+    network_input_.Write(FieldsOf(environment.state()), {input.data(), static_cast<size_t>(inputs_)});
     return input;
   }
 
   void Update() {
     RandomStream stream(5, RandomPurpose::kReplaySampling, updates_, 0);
-    MiniBatch batch(network_input_.size(), run_->world.actions(), kBatch);
+    MiniBatch batch(inputs_, run_->world.actions(), kBatch);
     for (int column = 0; column < kBatch; ++column) {
       size_t place = stream.NextBelow(static_cast<uint32_t>(std::min<size_t>(rows_.size(), 300)));
       while (place + 300 < rows_.size()) {
@@ -93,7 +103,10 @@ class LiteralTraining {
   }
 
   const RecordedRun* run_;
-  NetworkInput network_input_{run_->world, run_->experiment.network_input_options()};
+  const UavWorld& world_ = RequireUavWorld(run_->world, "the test");
+  const NetworkInputOptions options_{run_->experiment.agent().sensor_geometry()};
+  NetworkInput network_input_{world_, options_};
+  int inputs_ = NetworkInput::Size(world_.sensors(), options_);
   bool flown_return_bound_;
   Dqn dqn_;
   std::vector<Row> rows_;

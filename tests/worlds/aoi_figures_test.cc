@@ -7,26 +7,25 @@
 
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/uav/network_input.h"
 
 namespace fresco {
 namespace {
 
-Episode FlyRandomly(const World& world, uint32_t index, bool safe) {
+Episode FlyRandomly(const UavWorld& world, uint32_t index, bool safe) {
   RandomStream stream = TestStream(6, index);
-  return Fly(world, [&](const Environment& environment) {
+  return Fly(world, [&](const UavEnvironment& environment) {
     return RandomAction(world, environment, {.safe_actions = safe}, &stream);
   });
 }
 
 TEST(AoiFigures, AreThoseWorkedByHand) {
-  const World world(SquareField(2, 4, {0, 0}, {1, 0}, {{0, 0, 1}, {25, 0, 3}}, 0));
+  const UavWorld world(SquareField(2, 4, {0, 0}, {1, 0}, {{0, 0, 1}, {25, 0, 3}}, 0));
   const Action actions[] = {{Move::kHover, 0}, {Move::kHover, 1}, {Move::kEast, 2}};
   const Episode flight =
-      Fly(world, [&](const Environment& environment) { return actions[environment.state().slot - 1]; });
+      Fly(world, [&](const UavEnvironment& environment) { return actions[environment.state().slot - 1]; });
   // Ages (1,1), (2,2), (1,3), (2,4): sensor 2 is out of coverage in slot 3.
-  ASSERT_EQ(flight.states.size(), 4u);
-  EXPECT_TRUE(flight.arrived());
+  ASSERT_EQ(StatesIn(flight).size(), 4u);
+  EXPECT_TRUE(Arrived(flight));
   const AoiFigures figures = Figures(world, flight);
   EXPECT_EQ(figures.total_aoi, 16);
   EXPECT_DOUBLE_EQ(figures.sum_aoi, 4);
@@ -37,9 +36,9 @@ TEST(AoiFigures, AreThoseWorkedByHand) {
 // sum_t r_t = -(J - (1/T) sum_n theta_n delta_{n,1}) + k3.
 TEST(AoiFigures, HaveTheReturnAsObjective) {
   for (uint32_t index = 0; index < 500; ++index) {
-    const World world(RandomScenario(index));
+    const UavWorld world(RandomScenario(index));
     const Episode flight = FlyRandomly(world, index, true);
-    ASSERT_TRUE(flight.arrived());
+    ASSERT_TRUE(Arrived(flight));
     const double first = 1.0 / world.scenario().slots;
     const double average_aoi = Figures(world, flight).average_aoi;
     const double total_reward = std::accumulate(flight.rewards.begin(), flight.rewards.end(), 0.0);
@@ -50,23 +49,23 @@ TEST(AoiFigures, HaveTheReturnAsObjective) {
 TEST(AoiFigures, OfAnEarlyEndAreThoseWithoutAnyFurtherCollection) {
   Scenario scenario = SquareField(3, 6, {0, 0}, {0, 0}, {{0, 0, 1}, {50, 50, 1}});
   scenario.maximum_aoi = 5;
-  const World world(scenario);
-  const Episode flight = Fly(world, [](const Environment& environment) {
+  const UavWorld world(scenario);
+  const Episode flight = Fly(world, [](const UavEnvironment& environment) {
     return Action{environment.state().slot < 3 ? Move::kNorth : Move::kEast, 1};
   });
   // Within R = 100 m everywhere: (1,1), (1,2), (1,3), then lost at (1,4) in slot 4; (2,5), (3,5).
-  EXPECT_EQ(flight.outcome, Outcome::kOutOfTime);
-  EXPECT_EQ(flight.states.size(), 4u);
+  EXPECT_EQ(OutcomeOf(flight), Outcome::kOutOfTime);
+  EXPECT_EQ(StatesIn(flight).size(), 4u);
   EXPECT_EQ(Figures(world, flight).total_aoi, 2 + 3 + 4 + 5 + 7 + 8);
 }
 
 TEST(AoiFigures, NeverLookBetterForEndingEarly) {
   int early = 0;
   for (uint32_t index = 0; index < 500; ++index) {
-    const World world(RandomScenario(index));
+    const UavWorld world(RandomScenario(index));
     const Episode flight = FlyRandomly(world, index, false);
     const int slots = world.scenario().slots;
-    early += flight.arrived() ? 0 : 1;
+    early += Arrived(flight) ? 0 : 1;
     const double smallest =
         world.sensors() == 1 || world.scenario().maximum_aoi ? 1.0 : 1.0 * world.sensors();
     EXPECT_GE(Figures(world, flight).sum_aoi, smallest);
@@ -77,20 +76,24 @@ TEST(AoiFigures, NeverLookBetterForEndingEarly) {
 
 TEST(AoiFigures, KeepAgesAndInputsWithinTheirBounds) {
   for (uint32_t index = 0; index < 300; ++index) {
-    const World world(RandomScenario(index));
-    const NetworkInput network_input(world, {});
-    std::vector<float> input(static_cast<size_t>(network_input.size()));
-    for (const State& state : FlyRandomly(world, index, true).states) {
+    const UavWorld world(RandomScenario(index));
+    std::vector<float> input(static_cast<size_t>(world.observation_size()));
+    for (const UavState& state : StatesIn(FlyRandomly(world, index, true))) {
       const auto [youngest, oldest] = std::minmax_element(state.aoi.begin(), state.aoi.end());
       EXPECT_GE(*youngest, 1);
       EXPECT_LE(*oldest, state.slot);
-      network_input.Write(state, input);
+      world.Observe(FieldsOf(state), input);
       for (const float value : input) {
         EXPECT_GE(value, 0.0f);
         EXPECT_LE(value, 1.0f);
       }
     }
   }
+}
+
+TEST(AoiFiguresDeathTest, RefuseAnEpisodeWithoutStates) {
+  const UavWorld world(TableOneScenario());
+  EXPECT_DEATH(Figures(world, Episode{}), "state_size");
 }
 
 }  // namespace

@@ -27,35 +27,35 @@ Scenario RowScenario(int slots, int home_column, const std::vector<int>& sensor_
   return scenario;
 }
 
-void ExpectFlight(const World& world, const Episode& flight, const std::vector<int>& columns,
+void ExpectFlight(const UavWorld& world, const Episode& flight, const std::vector<int>& columns,
                   const std::vector<int>& scheduled) {
   std::vector<int> flown_columns;
   std::vector<int> flown_scheduled;
-  for (size_t slot = 0; slot < flight.states.size(); ++slot) {
-    flown_columns.push_back(flight.states[slot].cell.column);
+  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
+    flown_columns.push_back(StateIn(flight, slot).cell.column);
     flown_scheduled.push_back(ActionIn(world, flight, slot).schedule);
   }
   EXPECT_EQ(flown_columns, columns);
   EXPECT_EQ(flown_scheduled, scheduled);
-  EXPECT_TRUE(flight.arrived());
+  EXPECT_TRUE(Arrived(flight));
 }
 
 TEST(AoiBaseline, FliesToTheOldestSensorAndHomeInTime) {
-  const World world(RowScenario(14, 0, {1, 5}));
+  const UavWorld world(RowScenario(14, 0, {1, 5}));
   ExpectFlight(world, FlyBaseline(world, BaselineKind::kAoi),  //
                {0, 1, 2, 3, 4, 5, 4, 3, 2, 1, 2, 1, 0, 0}, {0, 1, 0, 0, 0, 2, 0, 0, 0, 1, 0, 1, 0, 0});
 }
 
 // The round 1, 2, 3 ends over sensor 3, with which the next one therefore begins: 3, 2, 1; then 1, 2.
 TEST(DistanceBaseline, FliesInRoundsToTheNearestSensor) {
-  const World world(RowScenario(20, 2, {1, 3, 6}));
+  const UavWorld world(RowScenario(20, 2, {1, 3, 6}));
   ExpectFlight(world, FlyBaseline(world, BaselineKind::kDistance),
                {2, 1, 2, 3, 4, 5, 6, 6, 5, 4, 3, 2, 1, 1, 2, 3, 4, 3, 2, 2},
                {0, 1, 0, 2, 0, 0, 3, 3, 0, 0, 2, 0, 1, 1, 0, 2, 0, 2, 0, 0});
 }
 
 TEST(Baselines, FlyAlongTheLongerAxisAndColumnsFirst) {
-  const World world(SquareField(5, 30, {0, 0}, {0, 0}, {{50, 75, 1}}, 0));
+  const UavWorld world(SquareField(5, 30, {0, 0}, {0, 0}, {{50, 75, 1}}, 0));
   const std::vector<Move> expected = {Move::kNorth, Move::kEast,  Move::kNorth,
                                       Move::kEast,  Move::kNorth, Move::kHover};
   for (const BaselineKind kind : kKinds) {
@@ -69,7 +69,7 @@ TEST(Baselines, FlyAlongTheLongerAxisAndColumnsFirst) {
 TEST(Baselines, ServeTheOldestCoveredSensorOnTheWay) {
   Scenario scenario = RowScenario(20, 0, {0, 1, 2});
   scenario.coverage_radius_m = 1000;
-  const World world(scenario);
+  const UavWorld world(scenario);
   for (const BaselineKind kind : kKinds) {
     const Episode flight = FlyBaseline(world, kind);
     for (int slot = 0; slot < 19; ++slot) {
@@ -81,19 +81,19 @@ TEST(Baselines, ServeTheOldestCoveredSensorOnTheWay) {
 TEST(Baselines, AimAtTheNearestCellOfTheGrid) {
   Scenario scenario = RowScenario(20, 0, {});
   scenario.sensors = {{62.5, 300, 1}};  // half-way between columns 2 and 3, far north of the grid
-  const World world(scenario);
+  const UavWorld world(scenario);
   for (const BaselineKind kind : kKinds) {
     const Episode flight = FlyBaseline(world, kind);
-    EXPECT_EQ(flight.states[2].cell, (Cell{2, 0}));
-    EXPECT_EQ(flight.states[12].cell, (Cell{2, 0}));
+    EXPECT_EQ(StateIn(flight, 2).cell, (Cell{2, 0}));
+    EXPECT_EQ(StateIn(flight, 12).cell, (Cell{2, 0}));
   }
 }
 
 TEST(Baselines, AlwaysArrive) {
   for (uint32_t index = 0; index < 10000; ++index) {
-    const World world(RandomScenario(index));
+    const UavWorld world(RandomScenario(index));
     for (const BaselineKind kind : kKinds) {
-      ASSERT_TRUE(FlyBaseline(world, kind).arrived()) << index;
+      ASSERT_TRUE(Arrived(FlyBaseline(world, kind))) << index;
     }
   }
 }
@@ -103,7 +103,7 @@ TEST(Baselines, AlwaysArrive) {
 TEST(Baselines, FlyHomeForGoodOnceAWantedMoveIsOutOfReach) {
   Scenario scenario = RowScenario(20, 0, {3});
   scenario.initial_energy_j = 18 * 112.8758628 + 219.82 + 1;
-  const World world(scenario);
+  const UavWorld world(scenario);
   for (const BaselineKind kind : kKinds) {
     ExpectFlight(world, FlyBaseline(world, kind),
                  {0, 1, 2, 3, 3, 2, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0},
@@ -112,10 +112,10 @@ TEST(Baselines, FlyHomeForGoodOnceAWantedMoveIsOutOfReach) {
 }
 
 TEST(Baselines, BeginAfreshAfterReset) {
-  const World world(TableOneScenario());
+  const UavWorld world(TableOneScenario());
   for (const BaselineKind kind : kKinds) {
     Baseline baseline(kind, world);
-    const auto policy = [&](const Environment& environment) { return baseline.Choose(environment); };
+    const auto policy = [&](const UavEnvironment& environment) { return baseline.Choose(environment); };
     const Episode first = Fly(world, policy);
     baseline.Reset();
     EXPECT_EQ(Figures(world, Fly(world, policy)).total_aoi, Figures(world, first).total_aoi);
@@ -126,7 +126,7 @@ TEST(Baselines, BeginAfreshAfterReset) {
 // the exact totals are this code's own, and the rule that a target is chosen after the slot's
 // transmission was settled with that trial in view (before it, kAoi comes to 3393).
 TEST(Baselines, KeepTheirTotalsOnTheSharedInstance) {
-  const World world(TableOneScenario());
+  const UavWorld world(TableOneScenario());
   EXPECT_EQ(Figures(world, FlyBaseline(world, BaselineKind::kAoi)).total_aoi, 3684);
   EXPECT_EQ(Figures(world, FlyBaseline(world, BaselineKind::kDistance)).total_aoi, 3589);
 }

@@ -1,36 +1,45 @@
-// The record of an episode. Episodes as they were flown are accepted; change one thing and they are not.
-#include "worlds/uav/episode.h"
+// The record of an episode. Episodes as they were recorded are accepted; change one thing and they are not.
+#include "worlds/episode.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
+#include "tests/worlds/walk_world.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
 
+using testing::ElementsAre;
+
 class EpisodeCheck : public ::testing::Test {
  protected:
-  explicit EpisodeCheck(MaskOptions mask_options = {true, true})
-      : mask_options_(mask_options), episode_(FlyRandomly(1)) {}
+  explicit EpisodeCheck(MaskOptions mask = {true, true})
+      : world_(SquareField(5, 14, {0, 0}, {4, 4}, {{0, 100, 1}, {75, 25, 2}}, 30), {.mask = mask}),
+        episode_(FlyRandomly(1)) {}
 
   Episode FlyRandomly(uint32_t index) const {
     RandomStream stream = TestStream(7, index);
-    EpisodeRecorder recorder(world_, mask_options_);
-    while (recorder.episode().outcome == Outcome::kFlying) {
-      recorder.Step(world_.ActionIndex(RandomAction(world_, recorder.environment(), mask_options_, &stream)));
+    EpisodeRecorder recorder(world_, kSeed);
+    while (!recorder.ended()) {
+      recorder.Step(RandomAllowed(recorder.mask(), &stream));
     }
     return recorder.Release();
   }
 
   bool Accepts(const Episode& episode) const {
     Episode flown;
-    return FlyActions(world_, mask_options_, episode.actions, flown) &&
-           flown.transitions() == episode.transitions() && IsPartOf(episode, 0, flown);
+    return FlyActions(world_, kSeed, episode.actions, flown) && SameBits(episode, flown);
   }
 
   /// `change` is applied to a copy of the flown episode.
@@ -40,8 +49,8 @@ class EpisodeCheck : public ::testing::Test {
     EXPECT_FALSE(Accepts(changed)) << what << " " << where;
   }
 
-  World world_{SquareField(5, 14, {0, 0}, {4, 4}, {{0, 100, 1}, {75, 25, 2}}, 30)};
-  MaskOptions mask_options_;
+  static constexpr uint64_t kSeed = 3;
+  UavWorld world_;
   Episode episode_;
 };
 
@@ -50,56 +59,78 @@ class EpisodeCheckWithoutMasks : public EpisodeCheck {
   EpisodeCheckWithoutMasks() : EpisodeCheck(MaskOptions{}) {}
 };
 
-TEST_F(EpisodeCheck, RecordsWhatTheEnvironmentSaysInEverySlot) {
+TEST_F(EpisodeCheck, RecordsWhatTheEnvironmentSaysInEveryState) {
   for (uint32_t index = 0; index < 40; ++index) {
     const Episode episode = FlyRandomly(index);
-    Environment environment(world_);
+    const std::unique_ptr<Environment> environment = world_.NewEnvironment();
+    environment->Reset(kSeed);
+    std::vector<float> state(static_cast<size_t>(world_.state_size()));
     std::vector<uint8_t> mask(static_cast<size_t>(world_.actions()));
     std::vector<uint8_t> masks;
-    ASSERT_EQ(episode.states.size(), episode.actions.size() + 1);
+    StepResult result;
+    ASSERT_EQ(episode.states.size(), (episode.actions.size() + 1) * state.size());
+    ASSERT_EQ(episode.rewards.size(), episode.actions.size());
     for (size_t i = 0; i < episode.actions.size(); ++i) {
-      EXPECT_EQ(episode.states[i].cell, environment.state().cell);
-      EXPECT_EQ(episode.states[i].aoi, environment.state().aoi);
-      EXPECT_EQ(EnergyIn(world_, episode, i), environment.remaining_energy_j());
-      EXPECT_EQ(ActionIn(world_, episode, i), world_.ActionAt(episode.actions[i]));
-      const StepResult result = environment.Step(world_.ActionAt(episode.actions[i]));
+      environment->WriteState(state);
+      EXPECT_TRUE(std::ranges::equal(episode.state(i), state));
+      result = environment->Step(episode.actions[i]);
       EXPECT_EQ(episode.rewards[i], static_cast<float>(result.reward));
-      environment.WriteMask(mask_options_, mask);
+      environment->WriteMask(mask);
       AppendMask(mask, masks);
     }
+    environment->WriteState(state);
+    EXPECT_TRUE(std::ranges::equal(episode.state(episode.actions.size()), state));
     EXPECT_EQ(episode.next_masks, masks);
-    EXPECT_EQ(episode.outcome, environment.outcome());
-    EXPECT_EQ(ResidualEnergy(world_, episode), environment.remaining_energy_j());
-    EXPECT_EQ(ActionIn(world_, episode, episode.actions.size()), Action{});
+    EXPECT_EQ(episode.ending, result.ending);
   }
+}
+
+TEST_F(EpisodeCheck, RecorderShowsThePresentStateAndMask) {
+  EpisodeRecorder recorder(world_, kSeed);
+  std::vector<float> state(static_cast<size_t>(world_.state_size()));
+  std::vector<uint8_t> mask(static_cast<size_t>(world_.actions()));
+  for (const int16_t action : episode_.actions) {
+    EXPECT_FALSE(recorder.ended());
+    recorder.environment().WriteState(state);
+    EXPECT_TRUE(std::ranges::equal(recorder.state(), state));
+    recorder.environment().WriteMask(mask);
+    EXPECT_EQ(recorder.mask(), mask);
+    recorder.Step(action);
+  }
+  EXPECT_TRUE(recorder.ended());
+  EXPECT_EQ(recorder.episode().states, episode_.states);
+}
+
+TEST_F(EpisodeCheck, KnowsTheMemoryOfTheLongestEpisode) {
+  ASSERT_EQ(episode_.transitions(), world_.longest_episode());
+  const size_t bytes = sizeof(Episode) + episode_.states.size() * sizeof(float) +
+                       episode_.actions.size() * sizeof(int16_t) + episode_.rewards.size() * sizeof(float) +
+                       episode_.next_masks.size();
+  EXPECT_EQ(LongestEpisodeBytes(world_), static_cast<int64_t>(bytes));
 }
 
 TEST_F(EpisodeCheck, AcceptsFlownEpisodes) {
   for (uint32_t index = 0; index < 40; ++index) {
     const Episode episode = FlyRandomly(index);
-    EXPECT_EQ(episode.outcome, Outcome::kArrived);
+    EXPECT_EQ(OutcomeOf(episode), Outcome::kArrived);
     EXPECT_TRUE(Accepts(episode)) << index;
   }
 }
 
-TEST_F(EpisodeCheck, AcceptsEveryPartOfAnEpisodeAtItsPlaceAlone) {
-  const int transitions = episode_.transitions();
-  for (int first = 0; first < transitions; ++first) {
-    for (int count = 1; first + count <= transitions; ++count) {
-      const Episode part = PartOf(world_, episode_, first, count);
-      const int elsewhere = first + (first + count < transitions ? 1 : -1);
-      EXPECT_TRUE(IsPartOf(part, first, episode_)) << first << " " << count;
-      EXPECT_FALSE(IsPartOf(part, elsewhere, episode_)) << first << " " << count;
-    }
-  }
-  EXPECT_FALSE(IsPartOf(Episode{}, 0, episode_));
+TEST_F(EpisodeCheck, RefusesAnEpisodeWithoutSomeOfItsValues) {
+  ExpectRefused([](Episode& episode) { episode.states.pop_back(); }, "state", 0);
+  ExpectRefused([](Episode& episode) { episode.states.clear(); }, "states", 0);
+  ExpectRefused([](Episode& episode) { episode.rewards.pop_back(); }, "reward", 0);
+  ExpectRefused([](Episode& episode) { episode.next_masks.pop_back(); }, "mask", 0);
+  EXPECT_FALSE(SameBits(Episode{}, episode_));
+  EXPECT_TRUE(SameBits(Episode{}, Episode{}));
 }
 
 TEST_F(EpisodeCheckWithoutMasks, AcceptsFlownEpisodesThatEndEarly) {
   int early = 0;
   for (uint32_t index = 0; index < 40; ++index) {
     const Episode episode = FlyRandomly(index);
-    early += episode.outcome == Outcome::kOutOfTime ? 1 : 0;
+    early += OutcomeOf(episode) == Outcome::kOutOfTime ? 1 : 0;
     EXPECT_TRUE(Accepts(episode)) << index;
   }
   EXPECT_GT(early, 20);
@@ -107,15 +138,16 @@ TEST_F(EpisodeCheckWithoutMasks, AcceptsFlownEpisodesThatEndEarly) {
 
 TEST_F(EpisodeCheck, RefusesAnyOtherAction) {
   for (size_t i = 0; i < episode_.actions.size(); ++i) {
-    for (int16_t action = 0; action < world_.actions(); ++action) {
+    for (int action = 0; action < world_.actions(); ++action) {
       if (action != episode_.actions[i]) {
-        ExpectRefused([&](Episode& episode) { episode.actions[i] = action; }, "action", i);
+        ExpectRefused([&](Episode& episode) { episode.actions[i] = static_cast<int16_t>(action); }, "action",
+                      i);
       }
     }
   }
 }
 
-TEST_F(EpisodeCheck, RefusesAnyOtherBitOfARewardOrAnEnergyMargin) {
+TEST_F(EpisodeCheck, RefusesAnyOtherBitOfARewardOrAState) {
   const auto flip = [](float& value, uint32_t bit) {
     value = std::bit_cast<float>(std::bit_cast<uint32_t>(value) ^ (1u << bit));
   };
@@ -124,7 +156,7 @@ TEST_F(EpisodeCheck, RefusesAnyOtherBitOfARewardOrAnEnergyMargin) {
       ExpectRefused([&](Episode& episode) { flip(episode.rewards[i], bit); }, "reward", i);
     }
     for (size_t i = 0; i < episode_.states.size(); ++i) {
-      ExpectRefused([&](Episode& episode) { flip(episode.states[i].energy_margin_j, bit); }, "energy", i);
+      ExpectRefused([&](Episode& episode) { flip(episode.states[i], bit); }, "state", i);
     }
   }
 }
@@ -133,31 +165,21 @@ TEST_F(EpisodeCheck, RefusesValuesThatAreNotNumbers) {
   for (const float value :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     ExpectRefused([&](Episode& episode) { episode.rewards[2] = value; }, "reward", 2);
-    ExpectRefused([&](Episode& episode) { episode.states[2].energy_margin_j = value; }, "energy", 2);
+    const size_t energy = 2 * static_cast<size_t>(world_.state_size()) + kEnergyMarginField;
+    ExpectRefused([&](Episode& episode) { episode.states[energy] = value; }, "energy", 2);
   }
 }
 
 TEST_F(EpisodeCheck, RefusesAnyOtherFieldOfAState) {
   for (size_t i = 0; i < episode_.states.size(); ++i) {
-    for (const int change : {-1, 1}) {
-      ExpectRefused([&](Episode& episode) { episode.states[i].slot += change; }, "slot", i);
-      ExpectRefused([&](Episode& episode) { episode.states[i].cell.column += change; }, "column", i);
-      ExpectRefused([&](Episode& episode) { episode.states[i].cell.row += change; }, "row", i);
-      ExpectRefused([&](Episode& episode) { episode.states[i].time_margin += change; }, "time", i);
-      for (size_t sensor = 0; sensor < 2; ++sensor) {
-        ExpectRefused(
-            [&](Episode& episode) {
-              int16_t& aoi = episode.states[i].aoi[sensor];
-              aoi = static_cast<int16_t>(aoi + change);
-            },
-            "aoi", i);
-      }
+    for (const float change : {-1.0f, 1.0f}) {
+      ExpectRefused([&](Episode& episode) { episode.states[i] += change; }, "state", i);
     }
   }
 }
 
 TEST_F(EpisodeCheck, RefusesAnyOtherBitOfAMask) {
-  const auto mask_size = static_cast<size_t>(MaskSize(world_));
+  const auto mask_size = static_cast<size_t>(MaskSize(world_.actions()));
   for (size_t i = 0; i < episode_.actions.size(); ++i) {
     for (size_t action = 0; action < static_cast<size_t>(world_.actions()); ++action) {
       ExpectRefused(
@@ -170,10 +192,10 @@ TEST_F(EpisodeCheck, RefusesAnyOtherBitOfAMask) {
   }
 }
 
-TEST_F(EpisodeCheck, RefusesAnyOtherOutcome) {
-  for (const Outcome outcome : {Outcome::kFlying, Outcome::kOutOfTime, Outcome::kOutOfEnergy}) {
-    ExpectRefused([&](Episode& episode) { episode.outcome = outcome; }, "outcome",
-                  static_cast<size_t>(outcome));
+TEST_F(EpisodeCheck, RefusesAnyOtherEnding) {
+  ASSERT_EQ(episode_.ending, Ending::kTerminal);
+  for (const Ending ending : {Ending::kNone, Ending::kTruncated}) {
+    ExpectRefused([&](Episode& episode) { episode.ending = ending; }, "ending", static_cast<size_t>(ending));
   }
 }
 
@@ -181,10 +203,10 @@ TEST_F(EpisodeCheck, RefusesAnEpisodeWithoutItsEndOrItsBeginning) {
   const int all_but_one = episode_.transitions() - 1;
   Episode without_end = PartOf(world_, episode_, 0, all_but_one);
   EXPECT_FALSE(Accepts(without_end));
-  without_end.outcome = Outcome::kArrived;
+  without_end.ending = Ending::kTerminal;
   EXPECT_FALSE(Accepts(without_end));
   Episode without_beginning = PartOf(world_, episode_, 1, all_but_one);
-  EXPECT_EQ(without_beginning.outcome, Outcome::kArrived);
+  EXPECT_EQ(without_beginning.ending, Ending::kTerminal);
   EXPECT_FALSE(Accepts(without_beginning));
   EXPECT_FALSE(Accepts(Episode{}));
 }
@@ -192,12 +214,64 @@ TEST_F(EpisodeCheck, RefusesAnEpisodeWithoutItsEndOrItsBeginning) {
 TEST_F(EpisodeCheck, RefusesATransitionAfterTheEnd) {
   ExpectRefused(
       [&](Episode& episode) {
-        episode.states.push_back(episode.states.back());
+        const std::vector<float> all = episode.states;
+        episode.states.insert(episode.states.end(), all.end() - world_.state_size(), all.end());
         episode.actions.push_back(static_cast<int16_t>(world_.ActionIndex({Move::kHover, 0})));
         episode.rewards.push_back(episode.rewards.back());
-        episode.next_masks.resize(episode.next_masks.size() + static_cast<size_t>(MaskSize(world_)), 0xff);
+        episode.next_masks.resize(episode.next_masks.size() + static_cast<size_t>(MaskSize(world_.actions())),
+                                  0xff);
       },
       "after the end", 0);
+}
+
+TEST(EpisodeOfAWalk, DependsOnItsSeed) {
+  const WalkWorld world;
+  const std::vector<int16_t> actions = {1, 0, 8, 2, 0};
+  Episode first;
+  Episode other;
+  ASSERT_TRUE(FlyActions(world, 4, actions, first));
+  ASSERT_TRUE(FlyActions(world, 5, actions, other));
+  EXPECT_THAT(first.states, ElementsAre(4, 0, 5, 1, 5, 2, 13, 3, 15, 4, 15, 5));
+  EXPECT_THAT(first.rewards, ElementsAre(5, 5, 13, 15, 15));
+  EXPECT_FALSE(SameBits(other, first));
+  EXPECT_EQ(first.seed, 4u);
+}
+
+TEST(EpisodeOfAWalk, RecordsHowItEnded) {
+  const WalkWorld world;
+  Episode episode;
+  ASSERT_TRUE(FlyActions(world, 4, std::vector<int16_t>(5, 0), episode));
+  EXPECT_EQ(episode.ending, Ending::kTruncated);
+  EXPECT_EQ(episode.transitions(), 5);
+  ASSERT_TRUE(FlyActions(world, 4, std::vector<int16_t>(5, 8), episode));  // and the rest is ignored
+  EXPECT_EQ(episode.ending, Ending::kTerminal);
+  EXPECT_EQ(episode.transitions(), 3);
+}
+
+TEST(EpisodeOfAWalk, FillsMasksUpToAByteWithZeros) {
+  const WalkWorld world;
+  Episode episode;
+  ASSERT_TRUE(FlyActions(world, 4, std::vector<int16_t>(5, 8), episode));
+  EXPECT_EQ(MaskSize(world.actions()), 2);
+  EXPECT_THAT(episode.next_masks, ElementsAre(0xff, 1, 0xff, 1, 0xff, 1));  // nine actions
+}
+
+TEST(EpisodeOfAWalk, RefusesActionsThatAreNoneOrTooFew) {
+  const WalkWorld world;
+  Episode episode;
+  EXPECT_FALSE(FlyActions(world, 4, std::vector<int16_t>{0, -1, 0, 0, 0}, episode));
+  EXPECT_FALSE(FlyActions(world, 4, std::vector<int16_t>{0, 9, 0, 0, 0}, episode));
+  EXPECT_FALSE(FlyActions(world, 4, std::vector<int16_t>(4, 0), episode));
+}
+
+TEST(EpisodeOfAWalk, HasNothingLeftOnceItIsCleared) {
+  const WalkWorld world;
+  Episode episode;
+  ASSERT_TRUE(FlyActions(world, 4, std::vector<int16_t>(5, 0), episode));
+  episode.Clear();
+  EXPECT_EQ(episode.ending, Ending::kNone);
+  EXPECT_EQ(episode.transitions(), 0);
+  EXPECT_TRUE(episode.states.empty() && episode.rewards.empty() && episode.next_masks.empty());
 }
 
 }  // namespace

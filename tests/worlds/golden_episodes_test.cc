@@ -1,19 +1,14 @@
-// Whole episodes as text, as a reader would want to see them: tests/worlds/golden has a file each. After a
-// change of the model that is meant, write them anew and read what changed:
-//   FRESCO_WRITE_GOLDENS=1 build/release/bin/worlds_test --gtest_filter='GoldenEpisodes.*'
+// Whole flights as text, as a reader would want to see them (tests/worlds/golden_text.h).
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "core/files.h"
+#include "tests/worlds/golden_text.h"
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/uav/environment.h"
+#include "worlds/uav/uav_environment.h"
 
 namespace fresco {
 namespace {
@@ -82,7 +77,7 @@ class EpisodeText {
 
   /// The part of a line before the action. N, S, E, W, H: the moves that the mask of safe actions allows.
   void WriteState() {
-    const State& state = environment_.state();
+    const UavState& state = environment_.state();
     std::string moves, covered, aoi;
     const bool flying = environment_.outcome() == Outcome::kFlying;
     for (int move = 0; move < kMoves; ++move) {
@@ -98,7 +93,7 @@ class EpisodeText {
   }
 
   Action Choose() {
-    const State& state = environment_.state();
+    const UavState& state = environment_.state();
     Action action;
     for (int sensor = 1; sensor <= world_.sensors(); ++sensor) {
       const auto aoi_of = [&](int s) { return state.aoi[static_cast<size_t>(s) - 1]; };
@@ -119,42 +114,16 @@ class EpisodeText {
     return action;
   }
 
-  World world_;
-  Environment environment_;
+  UavWorld world_;
+  UavEnvironment environment_;
   Pilot pilot_;
   size_t next_ = 0;  // waypoint
   int waited_ = 0;   // slots over it
   std::string text_;
 };
 
-std::vector<std::string> LinesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
-  return lines;
-}
-
 void ExpectGolden(const std::string& name, const Scenario& scenario, Pilot pilot) {
-  const std::string path = FRESCO_SOURCE_DIR "/tests/worlds/golden/" + name + ".txt";
-  const std::string text = EpisodeText(scenario, std::move(pilot)).Fly();
-  if (std::getenv("FRESCO_WRITE_GOLDENS") != nullptr) {
-    std::ofstream(path) << text;
-    return;
-  }
-  std::vector<std::string> expected = LinesOf(ReadFile(path));
-  std::vector<std::string> found = LinesOf(text);
-  const size_t lines = std::max(expected.size(), found.size());
-  expected.resize(lines, "(the end)");
-  found.resize(lines, "(the end)");
-  for (size_t i = 0; i < lines; ++i) {
-    if (expected[i] != found[i]) {
-      FAIL() << path << ", line " << i + 1 << ":\n  expected: " << expected[i] << "\n  found:    " << found[i]
-             << "\nIf this is meant: FRESCO_WRITE_GOLDENS=1 build/release/bin/worlds_test "
-                "--gtest_filter='GoldenEpisodes.*'";
-    }
-  }
+  ExpectGoldenText(name, EpisodeText(scenario, std::move(pilot)).Fly());
 }
 
 TEST(GoldenEpisodes, TableOneOverAllThreeSensors) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "worlds/uav/scenario.h"
-#include "worlds/uav/world.h"
+#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 

@@ -8,7 +8,7 @@
 
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/uav/environment.h"
+#include "worlds/uav/uav_environment.h"
 
 namespace fresco {
 namespace {
@@ -16,46 +16,52 @@ namespace {
 using testing::ElementsAre;
 using testing::FloatEq;
 
-std::vector<float> InputOf(const World& world, const State& state, NetworkInputOptions options = {}) {
-  const NetworkInput network_input(world, options);
-  std::vector<float> input(static_cast<size_t>(network_input.size()), -9.0f);
-  network_input.Write(state, input);
+std::vector<float> InputOf(const Scenario& scenario, const UavState& state,
+                           NetworkInputOptions options = {}) {
+  const UavWorld world(scenario, {.network_input = options});
+  std::vector<float> input(static_cast<size_t>(world.observation_size()), -9.0f);
+  const UavWorld plain(scenario);  // a NetworkInput goes by its own options
+  NetworkInput(plain, options).Write(FieldsOf(state), input);
+  std::vector<float> observed(input.size(), -9.0f);
+  world.Observe(FieldsOf(state), observed);
+  EXPECT_EQ(observed, input);
   return input;
 }
 
 TEST(NetworkInput, IsTheStateScaledToOne) {
-  const World world(TableOneScenario());
-  const State state{
+  const Scenario scenario = TableOneScenario();
+  const UavState state{
       .slot = 20, .cell = {19, 5}, .time_margin = 35, .energy_margin_j = 5500, .aoi = {7, 14, 70}};
-  EXPECT_THAT(InputOf(world, state), ElementsAre(1.0f, 5.0f / 19.0f, 0.1f, 0.2f, 1.0f, 0.5f, 0.25f));
+  EXPECT_THAT(InputOf(scenario, state), ElementsAre(1.0f, 5.0f / 19.0f, 0.1f, 0.2f, 1.0f, 0.5f, 0.25f));
 }
 
 TEST(NetworkInput, IsZeroAlongAnAxisOfOneCell) {
-  const World world(SquareField(1, 70, {0, 0}, {0, 0}, {{0, 0, 1}}));
-  const State state{.slot = 1, .cell = {0, 0}, .time_margin = 70, .energy_margin_j = 0, .aoi = {1}};
-  EXPECT_THAT(InputOf(world, state), ElementsAre(0.0f, 0.0f, 1.0f / 70.0f, 1.0f, 0.0f));
-  EXPECT_THAT(InputOf(world, state, {.sensor_geometry = true}),
+  const Scenario scenario = SquareField(1, 70, {0, 0}, {0, 0}, {{0, 0, 1}});
+  const UavState state{.slot = 1, .cell = {0, 0}, .time_margin = 70, .energy_margin_j = 0, .aoi = {1}};
+  EXPECT_THAT(InputOf(scenario, state), ElementsAre(0.0f, 0.0f, 1.0f / 70.0f, 1.0f, 0.0f));
+  EXPECT_THAT(InputOf(scenario, state, {.sensor_geometry = true}),
               ElementsAre(0.0f, 0.0f, 1.0f / 70.0f, 1.0f, 0.0f, 1.0f, 0.0f));
 }
 
 TEST(NetworkInput, ShowsCoverageAndDistancesOfTheCellWithSensorGeometry) {
   // Sensors at (200, 175), (25, 100) and (450, 475) m, R = 100 m; the grid's longer side is 500 m.
-  const World world(TableOneScenario());
-  const State state{
+  const Scenario scenario = TableOneScenario();
+  const UavState state{
       .slot = 20, .cell = {11, 8}, .time_margin = 35, .energy_margin_j = 5500, .aoi = {7, 14, 70}};
   // The UAV is over (275, 200) m: hypot(75, 25), hypot(250, 100) and hypot(175, 275) m away.
   EXPECT_THAT(
-      InputOf(world, state, {.sensor_geometry = true}),
+      InputOf(scenario, state, {.sensor_geometry = true}),
       ElementsAre(11.0f / 19.0f, 8.0f / 19.0f, 0.1f, 0.2f, 1.0f, 0.5f, 0.25f, 1.0f, 0.0f, 0.0f,
                   FloatEq(79.0569415f / 500), FloatEq(269.258240f / 500), FloatEq(325.960120f / 500)));
 }
 
 TEST(NetworkInput, HasTheSameStateFirstWithAndWithoutSensorGeometry) {
   for (uint32_t index = 0; index < 50; ++index) {
-    const World world(RandomScenario(index));
-    const State start = Environment(world).state();
-    const std::vector<float> plain = InputOf(world, start);
-    const std::vector<float> more = InputOf(world, start, {.sensor_geometry = true});
+    const Scenario scenario = RandomScenario(index);
+    const UavWorld world(scenario);
+    const UavState start = UavEnvironment(world).state();
+    const std::vector<float> plain = InputOf(scenario, start);
+    const std::vector<float> more = InputOf(scenario, start, {.sensor_geometry = true});
     ASSERT_EQ(plain.size(), static_cast<size_t>(world.sensors()) + 4);
     ASSERT_EQ(more.size(), 3 * static_cast<size_t>(world.sensors()) + 4);
     EXPECT_TRUE(std::equal(plain.begin(), plain.end(), more.begin()));

@@ -9,18 +9,18 @@
 #include "tests/worlds/literal_model.h"
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/uav/environment.h"
+#include "worlds/uav/uav_environment.h"
 
 namespace fresco {
 namespace {
 
 class MaskSearch {
  public:
-  explicit MaskSearch(const World& world) : world_(world) {}
+  explicit MaskSearch(const UavWorld& world) : world_(world) {}
 
   // Visits every situation that any flight comes to, and compares each of its moves.
-  void Visit(const Environment& environment, int hovers) {
-    const State& state = environment.state();
+  void Visit(const UavEnvironment& environment, int hovers) {
+    const UavState& state = environment.state();
     if (!visited_.insert({state.slot, state.cell.column, state.cell.row, hovers}).second) {
       return;
     }
@@ -28,7 +28,7 @@ class MaskSearch {
       const auto move = static_cast<Move>(index);
       const Cell next = world_.After(state.cell, move);
       const bool stays = next == state.cell;
-      Environment after = environment;
+      UavEnvironment after = environment;
       const StepResult result = after.Step({move, 0});
       const int slots_left = world_.scenario().slots - after.state().slot;
       const bool some_flight =
@@ -41,7 +41,7 @@ class MaskSearch {
       if (!result.terminal()) {
         Visit(after, hovers + (stays ? 1 : 0));
       } else if (some_flight) {
-        EXPECT_EQ(result.outcome, Outcome::kArrived);
+        EXPECT_EQ(after.outcome(), Outcome::kArrived);
       }
     }
   }
@@ -49,7 +49,7 @@ class MaskSearch {
   int compared(bool safe) const { return compared_[safe ? 1 : 0]; }
 
  private:
-  const World& world_;
+  const UavWorld& world_;
   std::set<std::tuple<int, int, int, int>> visited_;
   int compared_[2] = {0, 0};
 };
@@ -63,9 +63,9 @@ TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnToTheStop) {
       continue;
     }
     SCOPED_TRACE(index);
-    const World world(scenario);
+    const UavWorld world(scenario);
     MaskSearch search(world);
-    search.Visit(Environment(world), 0);
+    search.Visit(UavEnvironment(world), 0);
     ASSERT_FALSE(testing::Test::HasFailure());
     safe += search.compared(true);
     unsafe += search.compared(false);
@@ -76,8 +76,8 @@ TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnToTheStop) {
 
 TEST(SafeActionMask, LetsRandomFlightsAlwaysArrive) {
   for (uint32_t index = 0; index < 2000; ++index) {
-    const World world(RandomScenario(index));
-    Environment environment(world);
+    const UavWorld world(RandomScenario(index));
+    UavEnvironment environment(world);
     RandomStream stream = TestStream(3, index);
     while (environment.outcome() == Outcome::kFlying) {
       environment.Step(RandomAction(world, environment, {.safe_actions = true}, &stream));
@@ -90,7 +90,7 @@ TEST(SafeActionMask, LetsRandomFlightsAlwaysArrive) {
 }
 
 // A world is refused for its energy iff exhaustive search finds no flight.
-TEST(World, AcceptsAScenarioIffSomeFlightReachesTheStop) {
+TEST(UavWorld, AcceptsAScenarioIffSomeFlightReachesTheStop) {
   int refused = 0;
   for (uint32_t index = 0; index < 1000; ++index) {
     Scenario scenario = RandomScenario(index);
@@ -98,7 +98,7 @@ TEST(World, AcceptsAScenarioIffSomeFlightReachesTheStop) {
     scenario.initial_energy_j = 1 + scenario.slots * 200 * stream.NextUniform();
     bool accepted = true;
     try {
-      const World world(scenario);
+      const UavWorld world(scenario);
     } catch (const Error&) {
       accepted = false;
       ++refused;
@@ -113,7 +113,7 @@ TEST(World, AcceptsAScenarioIffSomeFlightReachesTheStop) {
 
 // A world in which `slots` slots are to be passed with exactly the energy of `flown` and `hovers`.
 Scenario ExactEnergy(Scenario scenario, int flown, int hovers) {
-  const World world(scenario);  // its energies are rounded alike: T P(0) tau is the largest in both
+  const UavWorld world(scenario);  // its energies are rounded alike: T P(0) tau is the largest in both
   scenario.initial_energy_j = flown * world.flying_energy_j() + hovers * world.hovering_energy_j();
   return scenario;
 }
@@ -123,8 +123,8 @@ TEST(Reachability, ExactlyEnoughEnergyIsEnough) {
     Scenario scenario = TableOneScenario();
     scenario.initial_energy_j = 15000;
     scenario = ExactEnergy(scenario, 69 - hovers, hovers);
-    const World world(scenario);
-    Environment environment(world);
+    const UavWorld world(scenario);
+    UavEnvironment environment(world);
     RandomStream stream = TestStream(5, static_cast<uint32_t>(hovers));
     while (environment.outcome() == Outcome::kFlying) {
       const bool hover = environment.IsSafe(Move::kHover);
@@ -134,7 +134,7 @@ TEST(Reachability, ExactlyEnoughEnergyIsEnough) {
     EXPECT_EQ(environment.remaining_energy_j(), 0);
     scenario.initial_energy_j -= 1e-9;
     if (hovers == 0) {
-      EXPECT_THROW(World{scenario}, Error);
+      EXPECT_THROW(UavWorld{scenario}, Error);
     }
   }
 }
@@ -146,15 +146,15 @@ TEST(Reachability, OnASingleCellAllSlackIsHovered) {
   scenario.slots = 5;
   scenario.sensors = {{0, 0, 1}};
   scenario.initial_energy_j = 4 * 219.82 - 0.01;  // far more than four slots flown
-  EXPECT_THROW(World{scenario}, Error);
+  EXPECT_THROW(UavWorld{scenario}, Error);
   scenario.initial_energy_j = 4 * 219.82 + 0.01;
-  const World world(scenario);
-  EXPECT_TRUE(Environment(world).IsSafe(Move::kHover));
-  EXPECT_FALSE(Environment(world).IsSafe(Move::kNorth));
+  const UavWorld world(scenario);
+  EXPECT_TRUE(UavEnvironment(world).IsSafe(Move::kHover));
+  EXPECT_FALSE(UavEnvironment(world).IsSafe(Move::kNorth));
 }
 
 TEST(Reachability, AnOddSlackTakesAHoverWhereHoveringIsTheDearer) {
-  const World world(TableOneScenario());
+  const UavWorld world(TableOneScenario());
   const double flown_j = world.flying_energy_j();
   EXPECT_TRUE(CanReachStop(world, {10, 17}, 4, 4 * flown_j));
   EXPECT_FALSE(CanReachStop(world, {10, 17}, 3, 3 * flown_j));

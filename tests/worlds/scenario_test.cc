@@ -1,5 +1,5 @@
-// What World refuses, and in which words; sensors at random places.
-#include "worlds/uav/world.h"
+// What UavWorld refuses, and in which words; sensors at random places.
+#include "worlds/uav/uav_world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 void MakeWorld(const std::function<void(Scenario*)>& change) {
   Scenario scenario = TableOneScenario();
   change(&scenario);
-  World world(scenario);
+  UavWorld world(scenario);
 }
 
 std::string Refusal(const std::function<void(Scenario*)>& change) {

@@ -12,7 +12,7 @@ namespace {
 
 bool IsValid(const Scenario& scenario) {
   try {
-    World world(scenario);
+    UavWorld world(scenario);
     return true;
   } catch (const Error&) {
     return false;
@@ -76,15 +76,26 @@ RandomStream TestStream(uint32_t test, uint32_t index) {
   return {2026, RandomPurpose::kTest, test, index};
 }
 
-Action RandomAction(const World& world, const Environment& environment, MaskOptions options,
+int RandomAllowed(std::span<const uint8_t> mask, RandomStream* stream) {
+  int index = 0;
+  do {
+    index = Between(stream, 0, static_cast<int>(mask.size()) - 1);
+  } while (mask[static_cast<size_t>(index)] == 0);
+  return index;
+}
+
+Action RandomAction(const UavWorld& world, const UavEnvironment& environment, MaskOptions options,
                     RandomStream* stream) {
   std::vector<uint8_t> mask(static_cast<size_t>(world.actions()));
   environment.WriteMask(options, mask);
-  int index = 0;
-  do {
-    index = Between(stream, 0, world.actions() - 1);
-  } while (mask[static_cast<size_t>(index)] == 0);
-  return world.ActionAt(index);
+  return world.ActionAt(RandomAllowed(mask, stream));
+}
+
+std::vector<float> FieldsOf(const UavState& state) {
+  std::vector<float> fields = {static_cast<float>(state.cell.column), static_cast<float>(state.cell.row),
+                               static_cast<float>(state.time_margin), state.energy_margin_j};
+  fields.insert(fields.end(), state.aoi.begin(), state.aoi.end());
+  return fields;
 }
 
 }  // namespace fresco

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "core/random.h"
-#include "worlds/uav/episode.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 
@@ -30,9 +32,14 @@ RandomStream TestStream(uint32_t test, uint32_t index);
 /// A whole number drawn uniformly from low .. high.
 int Between(RandomStream* stream, int low, int high);
 
-/// An action drawn uniformly from those that the mask admits.
-Action RandomAction(const World& world, const Environment& environment, MaskOptions options,
+/// The index of an action drawn uniformly from those that the mask admits.
+int RandomAllowed(std::span<const uint8_t> mask, RandomStream* stream);
+/// The same for a mask with these options.
+Action RandomAction(const UavWorld& world, const UavEnvironment& environment, MaskOptions options,
                     RandomStream* stream);
+
+/// The state as its fields, in the order of UavWorld's description.
+std::vector<float> FieldsOf(const UavState& state);
 
 /// Transitions first .. first + count - 1 of an episode.
 inline Episode PartOf(const World& world, const Episode& episode, int first, int count) {
@@ -40,11 +47,11 @@ inline Episode PartOf(const World& world, const Episode& episode, int first, int
   const auto copy = [&](const auto& from, auto& to, int extra, int scale) {
     to.assign(from.begin() + first * scale, from.begin() + (first + count) * scale + extra);
   };
-  part.outcome = first + count == episode.transitions() ? episode.outcome : Outcome::kFlying;
-  copy(episode.states, part.states, 1, 1);
+  part.ending = first + count == episode.transitions() ? episode.ending : Ending::kNone;
+  copy(episode.states, part.states, world.state_size(), world.state_size());
   copy(episode.actions, part.actions, 0, 1);
   copy(episode.rewards, part.rewards, 0, 1);
-  copy(episode.next_masks, part.next_masks, 0, MaskSize(world));
+  copy(episode.next_masks, part.next_masks, 0, MaskSize(world.actions()));
   return part;
 }
 

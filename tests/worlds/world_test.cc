@@ -1,116 +1,102 @@
-#include "worlds/uav/world.h"
+// What every world has from worlds/world.h: its description is checked, and the defaults.
+#include "worlds/world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-#include <string>
+#include <functional>
+#include <limits>
+#include <vector>
 
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/uav/physics.h"
+#include "tests/worlds/walk_world.h"
 
 namespace fresco {
 namespace {
 
-using testing::ElementsAre;
-
-TEST(World, HasTheSizesOfThePaper) {
-  const World world(TableOneScenario());
-  EXPECT_EQ(world.sensors(), 3);
-  EXPECT_EQ(world.actions(), 20);
-  EXPECT_EQ(world.maximum_transitions(), 69);
+void MakeWalk(const std::function<void(WorldDescription&)>& change) {
+  WorldDescription description = WalkWorld::Description();
+  change(description);
+  const WalkWorld world(description);
 }
 
-TEST(World, HasTheEnergiesOfTableOne) {
-  const World world(TableOneScenario());
-  EXPECT_NEAR(world.hovering_energy_j(), 219.82, 1e-9);
-  EXPECT_NEAR(world.flying_energy_j(), 112.8758628, 1e-7);
-  EXPECT_EQ(world.scenario().initial_energy_j, 22000);
+TEST(World, HasTheSizesOfItsDescription) {
+  const WalkWorld world;
+  EXPECT_EQ(world.description().name, "walk");
+  EXPECT_EQ(world.state_size(), 2);
+  EXPECT_EQ(world.observation_size(), 1);
+  EXPECT_EQ(world.actions(), 9);
+  EXPECT_EQ(world.longest_episode(), 5);
 }
 
-TEST(World, SumsEnergiesWithoutRounding) {
-  Scenario scenario = TableOneScenario();
-  scenario.initial_energy_j = 12345.6789;
-  const World world(scenario);
-  double remaining_j = world.scenario().initial_energy_j;
-  for (int slot = 0; slot < 69; ++slot) {
-    remaining_j -= slot % 3 == 0 ? world.hovering_energy_j() : world.flying_energy_j();
+TEST(World, AllowsEveryActionAndHasNoPlacesUnlessItSaysSo) {
+  const WalkWorld world;
+  std::vector<uint8_t> mask(9);
+  world.NewEnvironment()->WriteMask(mask);
+  EXPECT_THAT(mask, testing::Each(1));
+  EXPECT_FALSE(world.has_places());
+}
+
+TEST(World, TakesADescriptionAtItsLimits) {
+  MakeWalk([](WorldDescription& description) {
+    description.state.resize(kMaximumStateSize, {"field", ""});
+    description.actions.resize(kMaximumActions);
+    description.longest_episode = kMaximumEpisode;
+    description.discount = 0;
+  });
+}
+
+TEST(WorldDeathTest, RefusesADescriptionBeyondItsLimits) {
+  const auto state = [](int size) {
+    MakeWalk([=](WorldDescription& description) {
+      description.state.resize(static_cast<size_t>(size), {"field", ""});
+    });
+  };
+  const auto actions = [](int count) {
+    MakeWalk([=](WorldDescription& description) { description.actions.resize(static_cast<size_t>(count)); });
+  };
+  const auto episode = [](int transitions) {
+    MakeWalk([=](WorldDescription& description) { description.longest_episode = transitions; });
+  };
+  const auto discount = [](double value) {
+    MakeWalk([=](WorldDescription& description) { description.discount = value; });
+  };
+  EXPECT_DEATH(state(0), "state_size");
+  EXPECT_DEATH(state(kMaximumStateSize + 1), "state_size");
+  EXPECT_DEATH(actions(0), "actions");
+  EXPECT_DEATH(actions(kMaximumActions + 1), "actions");
+  EXPECT_DEATH(episode(0), "longest_episode");
+  EXPECT_DEATH(episode(kMaximumEpisode + 1), "longest_episode");
+  EXPECT_DEATH(discount(-0.01), "discount");
+  EXPECT_DEATH(discount(1.01), "discount");
+  EXPECT_DEATH(discount(std::numeric_limits<double>::quiet_NaN()), "discount");
+}
+
+TEST(WorldDeathTest, RefusesADescriptionWithoutObservationsOrFigures) {
+  const auto observation = [](WorldDescription& description) { description.observation_size = 0; };
+  const auto figures = [](WorldDescription& description) { description.figures.clear(); };
+  EXPECT_DEATH(MakeWalk(observation), "observation_size");
+  EXPECT_DEATH(MakeWalk(figures), "figures");
+}
+
+TEST(WorldDeathTest, RefusesNamesThatAreNone) {
+  const std::string too_long(kMaximumNameBytes + 1, 'a');
+  for (const std::string& name :
+       {std::string(), std::string("Capital"), std::string("two words"), too_long}) {
+    EXPECT_DEATH(MakeWalk([&](WorldDescription& description) { description.name = name; }), "name");
+    EXPECT_DEATH(MakeWalk([&](WorldDescription& description) { description.success = name; }), "success");
+    EXPECT_DEATH(MakeWalk([&](WorldDescription& description) { description.state[0].name = name; }), "state");
+    EXPECT_DEATH(MakeWalk([&](WorldDescription& description) { description.figures[0].name = name; }),
+                 "figures");
   }
-  for (int slot = 68; slot >= 0; --slot) {
-    remaining_j += slot % 2 == 0 ? world.flying_energy_j() : world.hovering_energy_j();
-  }
-  // 23 hovers and 46 flown down, 34 hovers and 35 flown up.
-  EXPECT_EQ(remaining_j - 11 * world.hovering_energy_j() + 11 * world.flying_energy_j(),
-            world.scenario().initial_energy_j);
 }
 
-TEST(World, NormalisesTheWeights) {
-  Scenario scenario = TableOneScenario();
-  scenario.sensors[1].weight = 2;
-  scenario.sensors[2].weight = 0;
-  const World world(scenario);
-  EXPECT_THAT(world.theta(), ElementsAre(1.0 / 3, 2.0 / 3, 0.0));
-}
-
-TEST(World, NumbersEveryActionOnce) {
-  const World world(TableOneScenario());
-  for (int index = 0; index < world.actions(); ++index) {
-    EXPECT_EQ(world.ActionIndex(world.ActionAt(index)), index);
-  }
-  EXPECT_EQ(world.ActionIndex({Move::kNorth, 0}), 0);
-  EXPECT_EQ(world.ActionIndex({Move::kEast, 3}), 11);
-  EXPECT_EQ(world.ActionIndex({Move::kHover, 3}), 19);
-}
-
-TEST(World, MovesNorthUpAndEastRightAndStopsAtTheBorder) {
-  const World world(TableOneScenario());
-  EXPECT_EQ(world.After({5, 6}, Move::kNorth), (Cell{5, 7}));
-  EXPECT_EQ(world.After({5, 6}, Move::kSouth), (Cell{5, 5}));
-  EXPECT_EQ(world.After({5, 6}, Move::kEast), (Cell{6, 6}));
-  EXPECT_EQ(world.After({5, 6}, Move::kWest), (Cell{4, 6}));
-  EXPECT_EQ(world.After({5, 6}, Move::kHover), (Cell{5, 6}));
-  EXPECT_EQ(world.After({0, 0}, Move::kWest), (Cell{0, 0}));
-  EXPECT_EQ(world.After({0, 0}, Move::kSouth), (Cell{0, 0}));
-  EXPECT_EQ(world.After({19, 19}, Move::kEast), (Cell{19, 19}));
-  EXPECT_EQ(world.After({19, 19}, Move::kNorth), (Cell{19, 19}));
-}
-
-TEST(World, NamesItsMoves) {
-  std::set<std::string> names;
-  for (int move = 0; move < kMoves; ++move) {
-    names.insert(MoveName(static_cast<Move>(move)));
-  }
-  EXPECT_EQ(names, (std::set<std::string>{"east", "hover", "north", "south", "west"}));
-}
-
-TEST(World, CoversADiscIncludingItsEdge) {
-  const World world(TableOneScenario());  // sensor 0 over cell (8, 7), R = 4 cells
-  int covered = 0;
-  for (int column = 0; column < 20; ++column) {
-    for (int row = 0; row < 20; ++row) {
-      const bool inside = (column - 8) * (column - 8) + (row - 7) * (row - 7) <= 16;
-      EXPECT_EQ(world.Covers({column, row}, 0), inside);
-      covered += inside;
-    }
-  }
-  EXPECT_EQ(covered, 49);
-  EXPECT_TRUE(world.Covers({12, 7}, 0));
-}
-
-TEST(World, CoversTheSameCellsWhenTheRadiusComesFromItsPower) {
-  Scenario scenario = TableOneScenario();
-  scenario.coverage_radius_m = CoverageRadius(scenario.radio, scenario.slot_s, 31e-7 * 24400);  // 100 m
-  EXPECT_TRUE(World(scenario).Covers({12, 7}, 0));
-}
-
-TEST(MoveTowards, TakesTheLongerAxisAndColumnsAtEqualDistances) {
-  EXPECT_EQ(MoveTowards({3, 3}, {3, 3}), Move::kHover);
-  EXPECT_EQ(MoveTowards({3, 3}, {5, 4}), Move::kEast);
-  EXPECT_EQ(MoveTowards({3, 3}, {1, 4}), Move::kWest);
-  EXPECT_EQ(MoveTowards({3, 3}, {4, 5}), Move::kNorth);
-  EXPECT_EQ(MoveTowards({3, 3}, {2, 0}), Move::kSouth);
-  EXPECT_EQ(MoveTowards({3, 3}, {2, 2}), Move::kWest);
-  EXPECT_EQ(MoveTowards({3, 3}, {4, 4}), Move::kEast);
+TEST(WorldDeathTest, RefusesPlacesWhereThereAreNone) {
+  const WalkWorld world;
+  RandomStream stream = TestStream(9, 0);
+  const std::vector<float> state = {0, 0};
+  EXPECT_DEATH(world.DrawPlace(stream), "world.cc");
+  EXPECT_DEATH(world.Towards(state, 0), "world.cc");
 }
 
 }  // namespace

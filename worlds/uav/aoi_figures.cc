@@ -1,6 +1,8 @@
 #include "worlds/uav/aoi_figures.h"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include "core/error.h"
 
@@ -12,9 +14,9 @@ struct AoiSums {
   int64_t total = 0;
   double weighted = 0;
 
-  void Add(const World& world, std::span<const int16_t> aoi) {
+  void Add(const UavWorld& world, std::span<const float> aoi) {
     for (size_t sensor = 0; sensor < aoi.size(); ++sensor) {
-      total += aoi[sensor];
+      total += static_cast<int64_t>(aoi[sensor]);
       weighted += world.theta()[sensor] * aoi[sensor];
     }
   }
@@ -22,18 +24,20 @@ struct AoiSums {
 
 }  // namespace
 
-AoiFigures Figures(const World& world, const Episode& episode) {
+AoiFigures Figures(const UavWorld& world, const Episode& episode) {
   const int slots = world.scenario().slots;
-  const int cap = world.scenario().maximum_aoi.value_or(slots);
-  FRESCO_CHECK(!episode.states.empty() && episode.states.size() <= static_cast<size_t>(slots));
+  const auto cap = static_cast<float>(world.scenario().maximum_aoi.value_or(slots));
+  FRESCO_CHECK(episode.transitions() < slots);
+  FRESCO_CHECK(episode.state(0).size() == static_cast<size_t>(world.state_size()));
   AoiSums sums;
-  for (const State& state : episode.states) {
-    sums.Add(world, state.aoi);
+  for (size_t i = 0; i <= episode.actions.size(); ++i) {
+    sums.Add(world, episode.state(i).subspan(kAoiField));
   }
-  std::vector<int16_t> aoi = episode.states.back().aoi;
-  for (auto slot = static_cast<int>(episode.states.size()); slot < slots; ++slot) {
-    for (int16_t& value : aoi) {
-      value = static_cast<int16_t>(std::min(value + 1, cap));
+  const auto last = episode.state(episode.actions.size()).subspan(kAoiField);
+  std::vector<float> aoi(last.begin(), last.end());
+  for (int slot = episode.transitions() + 1; slot < slots; ++slot) {
+    for (float& value : aoi) {
+      value = std::min(value + 1, cap);
     }
     sums.Add(world, aoi);
   }

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
-#include "worlds/uav/episode.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 
@@ -19,7 +17,7 @@ struct AoiFigures {
 
 /// The figures of an episode that begins at the start. One that ended early is charged as if nothing were
 /// collected any more until slot T, so that ending early never looks better.
-AoiFigures Figures(const World& world, const Episode& episode);
+AoiFigures Figures(const UavWorld& world, const Episode& episode);
 
 /// By how many percent an average AoI is above the least possible one. If the latter is only a lower bound,
 /// the result says how large the gap is at most; whoever shows it must say so.

@@ -12,7 +12,7 @@ namespace {
 // Returns the sensor with the largest AoI among those for which `eligible(sensor)` is true; of equal ones the
 // lowest index; -1 if there is none.
 template <typename Eligible>
-int Oldest(const State& state, const Eligible& eligible) {
+int Oldest(const UavState& state, const Eligible& eligible) {
   int oldest = -1;
   int largest_aoi = 0;
   for (int sensor = 0; sensor < static_cast<int>(state.aoi.size()); ++sensor) {
@@ -26,7 +26,7 @@ int Oldest(const State& state, const Eligible& eligible) {
 }
 
 // The sensor with the largest AoI once `served_now` (-1: none) has transmitted in this slot.
-int OldestAfter(const State& state, int served_now) {
+int OldestAfter(const UavState& state, int served_now) {
   const int oldest = Oldest(state, [=](int sensor) { return sensor != served_now; });
   return oldest >= 0 ? oldest : served_now;
 }
@@ -43,7 +43,7 @@ Cell NearestCell(const Scenario& scenario, const Sensor& sensor) {
 }
 
 // Flies to the stop. Once there, hovers if the energy allows it, and otherwise flies to and fro.
-Move MoveHome(const Environment& environment, Cell stop) {
+Move MoveHome(const UavEnvironment& environment, Cell stop) {
   const Move direct = MoveTowards(environment.state().cell, stop);
   if (environment.IsSafe(direct)) {
     return direct;
@@ -58,7 +58,7 @@ Move MoveHome(const Environment& environment, Cell stop) {
 
 }  // namespace
 
-Baseline::Baseline(BaselineKind kind, const World& world) : kind_(kind), world_(&world) {
+Baseline::Baseline(BaselineKind kind, const UavWorld& world) : kind_(kind), world_(&world) {
   Reset();
 }
 
@@ -67,8 +67,8 @@ void Baseline::Reset() {
   returning_ = false;
 }
 
-Action Baseline::Choose(const Environment& environment) {
-  const State& state = environment.state();
+Action Baseline::Choose(const UavEnvironment& environment) {
+  const UavState& state = environment.state();
   const Scenario& scenario = world_->scenario();
   const int served_now = Oldest(state, [&](int sensor) { return world_->Covers(state.cell, sensor); });
   const int target =
@@ -101,9 +101,9 @@ int Baseline::NextOfRound(Cell cell, int served_now) {
   return nearest;
 }
 
-Episode FlyBaseline(const World& world, BaselineKind kind) {
+Episode FlyBaseline(const UavWorld& world, BaselineKind kind) {
   Baseline baseline(kind, world);
-  return Fly(world, [&](const Environment& environment) { return baseline.Choose(environment); });
+  return Fly(world, [&](const UavEnvironment& environment) { return baseline.Choose(environment); });
 }
 
 }  // namespace fresco

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "worlds/uav/episode.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 
@@ -23,23 +23,23 @@ enum class BaselineKind {
 class Baseline {
  public:
   /// `world` must outlive the object.
-  Baseline(BaselineKind kind, const World& world);
+  Baseline(BaselineKind kind, const UavWorld& world);
   /// Prepares for a new episode.
   void Reset();
   /// Returns the action for the environment's present state. Call it once in each slot: it updates the round
   /// of the distance baseline.
-  Action Choose(const Environment& environment);
+  Action Choose(const UavEnvironment& environment);
 
  private:
   int NextOfRound(Cell cell, int served_now);
 
   BaselineKind kind_;
-  const World* world_;
+  const UavWorld* world_;
   std::vector<uint8_t> served_;  // by sensor: 1 if served in this round; for kDistance only
   bool returning_ = false;       // on the way to the stop until the episode ends
 };
 
 /// Flies one episode of a baseline.
-Episode FlyBaseline(const World& world, BaselineKind kind);
+Episode FlyBaseline(const UavWorld& world, BaselineKind kind);
 
 }  // namespace fresco

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -21,13 +22,14 @@ float ScaledDistance(const Scenario& scenario, Cell cell, const Sensor& sensor) 
 
 }  // namespace
 
-NetworkInput::NetworkInput(const World& world, NetworkInputOptions options)
+NetworkInput::NetworkInput(const UavWorld& world, NetworkInputOptions options)
     : world_(&world), options_(options) {
   if (!options.sensor_geometry) {
     return;
   }
   const Scenario& scenario = world.scenario();
-  geometry_.reserve(static_cast<size_t>(BytesFor(world, options)) / sizeof(geometry_[0]));
+  geometry_.reserve(static_cast<size_t>(scenario.columns) * static_cast<size_t>(scenario.rows) * 2 *
+                    scenario.sensors.size());
   for (int row = 0; row < scenario.rows; ++row) {
     for (int column = 0; column < scenario.columns; ++column) {
       for (int sensor = 0; sensor < world.sensors(); ++sensor) {
@@ -40,32 +42,28 @@ NetworkInput::NetworkInput(const World& world, NetworkInputOptions options)
   }
 }
 
-int64_t NetworkInput::BytesFor(const World& world, NetworkInputOptions options) {
-  const int64_t cells = int64_t{world.scenario().columns} * world.scenario().rows;
-  const int64_t entries = options.sensor_geometry ? cells * 2 * world.sensors() : 0;
-  return entries * static_cast<int64_t>(sizeof(decltype(geometry_)::value_type));
-}
-
 int NetworkInput::Size(int sensors, NetworkInputOptions options) {
   return sensors + 4 + (options.sensor_geometry ? 2 * sensors : 0);
 }
 
-void NetworkInput::Write(const State& state, std::span<float> input) const {
-  FRESCO_CHECK(input.size() == static_cast<size_t>(size()));
-  FRESCO_CHECK(state.aoi.size() == static_cast<size_t>(world_->sensors()));
+void NetworkInput::Write(std::span<const float> state, std::span<float> input) const {
+  const auto sensors = static_cast<size_t>(world_->sensors());
+  FRESCO_CHECK(input.size() == static_cast<size_t>(Size(world_->sensors(), options_)));
+  FRESCO_CHECK(state.size() == kAoiField + sensors);
   const Scenario& scenario = world_->scenario();
   const auto slots = static_cast<float>(scenario.slots);
+  const Cell cell = CellIn(state);
   size_t next = 0;
-  input[next++] = Share(state.cell.column, scenario.columns);
-  input[next++] = Share(state.cell.row, scenario.rows);
-  for (const int16_t aoi : state.aoi) {
-    input[next++] = static_cast<float>(aoi) / slots;
+  input[next++] = Share(cell.column, scenario.columns);
+  input[next++] = Share(cell.row, scenario.rows);
+  for (const float aoi : state.subspan(kAoiField)) {
+    input[next++] = aoi / slots;
   }
-  input[next++] = static_cast<float>(state.time_margin) / slots;
-  input[next++] = state.energy_margin_j / static_cast<float>(scenario.initial_energy_j);
+  input[next++] = state[kTimeMarginField] / slots;
+  input[next++] = state[kEnergyMarginField] / static_cast<float>(scenario.initial_energy_j);
   if (options_.sensor_geometry) {
-    const auto entries = static_cast<int64_t>(2 * state.aoi.size());
-    std::copy_n(geometry_.begin() + world_->CellIndex(state.cell) * entries, entries,
+    const auto entries = static_cast<int64_t>(2 * sensors);
+    std::copy_n(geometry_.begin() + world_->CellIndex(cell) * entries, entries,
                 input.begin() + static_cast<int64_t>(next));
   }
 }

@@ -1,14 +1,16 @@
-// Turns a state into the input of the network. Immutable after construction, so any number of threads may
-// share one.
+// What the network sees of the UAV's world: turns a state into the input of the network. Immutable after
+// construction, so any number of threads may share one.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "worlds/uav/world.h"
+#include "worlds/uav/scenario.h"
 
 namespace fresco {
+
+class UavWorld;
 
 struct NetworkInputOptions {
   /// Adds to the paper's state which sensors the UAV covers and how far away each one is. Both follow from
@@ -23,20 +25,19 @@ struct NetworkInputOptions {
 class NetworkInput {
  public:
   /// `world` must outlive the object.
-  NetworkInput(const World& world, NetworkInputOptions options);
+  NetworkInput(const UavWorld& world, NetworkInputOptions options);
 
   /// The number of entries for so many sensors.
   static int Size(int sensors, NetworkInputOptions options);
-  int size() const { return Size(world_->sensors(), options_); }
   /// The memory of the geometry table, bytes.
-  static int64_t BytesFor(const World& world, NetworkInputOptions options);
+  int64_t bytes() const { return static_cast<int64_t>(geometry_.size() * sizeof(geometry_[0])); }
 
-  /// Writes the entries to `input`. CHECKs that it has size() entries. Uses only what messages carry of a
-  /// state, so actor and learner get the same bits.
-  void Write(const State& state, std::span<float> input) const;
+  /// Writes the entries to `input` for a state as floats (uav_world.h says where each field is). CHECKs both
+  /// sizes.
+  void Write(std::span<const float> state, std::span<float> input) const;
 
  private:
-  const World* world_;
+  const UavWorld* world_;
   NetworkInputOptions options_;
   std::vector<float> geometry_;  // for every cell: N times covered or not, then N distances
 };

@@ -1,5 +1,5 @@
-// A scenario defines the world of one field of sensors, in SI units. Plain values. World (world.h) checks
-// what depends on several of them; msgs/proto/experiment.proto has the range and the default of each.
+// A scenario defines the world of one field of sensors, in SI units. Plain values. UavWorld (uav_world.h)
+// checks what depends on several of them; msgs/proto/experiment.proto has the range and the default of each.
 #pragma once
 
 #include <cstdint>

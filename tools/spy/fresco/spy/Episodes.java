@@ -1,70 +1,64 @@
 package fresco.spy;
 
 import fresco.transitions_t;
+import java.util.Iterator;
 import java.util.Map;
-import java.util.TreeMap;
 
 /** Joins transitions_t messages, in any order, to complete episodes. Used on the event thread. */
 final class Episodes {
   private static final int OPEN_EPISODES = 256;
   private static final int REMEMBERED_EPISODES = 1024;
+  private static final long MOST_FIELDS = 1 << 24; // of all open episodes, 64 MiB
+  private static final int MOST_ENDINGS = 2;
 
   private record Key(long runId, long order) {}
 
-  private final Map<Key, TreeMap<Integer, transitions_t>> open = new RecentMap<>(OPEN_EPISODES);
+  private final Map<Key, EpisodeParts> open = new RecentMap<>(OPEN_EPISODES);
   private final Map<Key, Boolean> done = new RecentMap<>(REMEMBERED_EPISODES);
 
-  /** Returns the episode if the message completes one, otherwise null. */
-  Flight add(transitions_t message) {
+  /**
+   * Returns the episode if the message completes one, otherwise null.
+   *
+   * @param names of the run's world; null if they are not known yet
+   */
+  Episode add(transitions_t message, WorldNames names) {
     Key key = new Key(message.run_id, message.order_index);
-    if (!isSound(message) || done.containsKey(key)) {
+    if (names == null || !isSound(message, names) || done.containsKey(key)) {
       return null;
     }
-    TreeMap<Integer, transitions_t> parts = open.computeIfAbsent(key, any -> new TreeMap<>());
-    parts.put(message.first_transition, message);
-    if (!isWhole(parts)) {
+    EpisodeParts parts = open.get(key);
+    if (parts == null || !parts.fits(message, names)) {
+      parts = new EpisodeParts(names, message.seed);
+      open.put(key, parts);
+    }
+    parts.take(message);
+    if (!parts.isWhole()) {
+      makeRoom();
       return null;
     }
     open.remove(key);
     done.put(key, true);
-    return flightOf(parts);
+    return parts.episode(message);
   }
 
-  private static boolean isSound(transitions_t message) {
-    return message.transition_count >= 1 && message.state_count == message.transition_count + 1
-        && message.sensor_count >= 1 && message.first_transition >= 0
-        && message.first_transition + message.transition_count < Fields.MAXIMUM_SLOTS;
-  }
-
-  private static boolean isWhole(TreeMap<Integer, transitions_t> parts) {
-    int next = 0;
-    for (transitions_t part : parts.values()) {
-      if (part.first_transition != next || part.sensor_count != parts.firstEntry().getValue().sensor_count) {
-        return false;
-      }
-      next += part.transition_count;
+  /** Forgets the open episodes that have been silent for longest if all of them take too much memory. */
+  private void makeRoom() {
+    long fields = open.values().stream().mapToLong(EpisodeParts::cost).sum();
+    for (Iterator<EpisodeParts> parts = open.values().iterator(); fields > MOST_FIELDS;) {
+      fields -= parts.next().cost();
+      parts.remove();
     }
-    return parts.lastEntry().getValue().outcome != Flight.FLYING;
   }
 
-  private static Flight flightOf(TreeMap<Integer, transitions_t> parts) {
-    transitions_t last = parts.lastEntry().getValue();
-    String actor = String.format("actor %016x", last.actor_id);
-    Flight flight = new Flight(last.run_id, last.order_index, "episode", actor, false);
-    flight.outcome = last.outcome;
-    for (transitions_t part : parts.values()) {
-      for (int i = 0; i < part.transition_count; ++i) {
-        flight.steps.add(stepOf(part, i, part.action[i]));
-      }
+  private static boolean isSound(transitions_t message, WorldNames names) {
+    boolean sound = message.transition_count >= 1 && message.state_count == message.transition_count + 1
+        && message.field_count >= 1 && message.first_field >= 0
+        && message.first_field <= names.state().size() - message.field_count && message.first_transition >= 0
+        && message.first_transition <= names.longestEpisode() - message.transition_count
+        && message.ending >= 0 && message.ending <= MOST_ENDINGS;
+    for (int i = 0; sound && i < message.transition_count; ++i) {
+      sound = message.action[i] >= 0 && message.action[i] < names.actions().size();
     }
-    int hover = 4 * (last.sensor_count + 1);
-    flight.steps.add(stepOf(last, last.transition_count, hover));
-    return flight;
-  }
-
-  private static Step stepOf(transitions_t part, int state, int action) {
-    return new Step(part.first_transition + state + 1, part.column[state], part.row[state], part.aoi[state],
-        Math.floorDiv(action, part.sensor_count + 1), Math.floorMod(action, part.sensor_count + 1),
-        part.time_margin[state], part.energy_margin_j[state], Double.NaN);
+    return sound;
   }
 }

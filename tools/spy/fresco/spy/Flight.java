@@ -7,6 +7,9 @@ import java.util.List;
 /** The known part of a flight: an episode, or a flight of `fresco fly`. Used on the event thread. */
 final class Flight {
   static final int FLYING = 0;
+  static final int ARRIVED = 1;
+  static final int OUT_OF_TIME = 2;
+  static final int OUT_OF_ENERGY = 3;
   private static final String[] OUTCOMES = {"flying", "arrived", "out of time", "out of energy"};
 
   final long runId;
@@ -25,6 +28,16 @@ final class Flight {
     this.live = live;
   }
 
+  /** Returns an episode of the UAV's world as a flight. */
+  static Flight of(Episode episode) {
+    Flight flight = new Flight(episode.runId(), episode.order(), "episode", episode.actor(), false);
+    for (int i = 0; i < episode.states().length; ++i) {
+      flight.steps.add(Step.of(episode, i));
+    }
+    flight.outcome = flight.steps.get(episode.steps()).outcome();
+    return flight;
+  }
+
   int sensors() { return steps.isEmpty() ? 0 : steps.get(0).aoi().length; }
 
   String outcomeName() { return outcome >= 0 && outcome < OUTCOMES.length ? OUTCOMES[outcome] : "?"; }
@@ -32,7 +45,9 @@ final class Flight {
   /** Returns the sum of the AoI of all sensors in the first `count` steps. */
   long totalAoi(int count) { return steps.stream().limit(count).mapToLong(Step::totalAoi).sum(); }
 
-  /** Returns the weighted mean AoI of the first `count` steps, slots. Without a field, all weights are equal. */
+  /**
+   * Returns the weighted mean AoI of the first `count` steps, slots. Without a field, all weights are equal.
+   */
   double averageAoi(int count, Field field) {
     double[] theta = field == null ? new double[sensors()] : field.theta();
     if (field == null) {

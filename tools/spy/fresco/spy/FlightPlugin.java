@@ -2,7 +2,6 @@ package fresco.spy;
 
 import fresco.flight_t;
 import fresco.scenario_t;
-import fresco.transitions_t;
 import javax.swing.Action;
 import javax.swing.JDesktopPane;
 import lcm.spy.ChannelData;
@@ -12,8 +11,7 @@ import lcm.spy.SpyPlugin;
 public final class FlightPlugin implements SpyPlugin {
   @Override
   public boolean canHandle(long fingerprint) {
-    return fingerprint == flight_t.LCM_FINGERPRINT || fingerprint == scenario_t.LCM_FINGERPRINT
-        || fingerprint == transitions_t.LCM_FINGERPRINT;
+    return fingerprint == flight_t.LCM_FINGERPRINT || fingerprint == scenario_t.LCM_FINGERPRINT;
   }
 
   @Override

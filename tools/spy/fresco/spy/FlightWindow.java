@@ -2,6 +2,7 @@ package fresco.spy;
 
 import fresco.flight_t;
 import fresco.transitions_t;
+import fresco.world_t;
 import java.awt.BorderLayout;
 import java.awt.Dimension;
 import java.awt.FlowLayout;
@@ -15,6 +16,7 @@ final class FlightWindow extends Window {
   private static final int PERIOD_MS = 40;
   private static final Integer[] PACES = {2, 4, 8, 16, 32};
 
+  private final Worlds worlds = new Worlds();
   private final Fields fields = new Fields();
   private final Orders orders = new Orders();
   private final Episodes episodes = new Episodes();
@@ -24,10 +26,12 @@ final class FlightWindow extends Window {
   private final AoiChart chart = new AoiChart();
   private final FlightFacts facts = new FlightFacts();
   private final String prefix;
+  private String otherWorld = ""; // of the run heard last; empty: none, or the UAV's
 
   FlightWindow(String prefix) {
     super(PERIOD_MS);
     this.prefix = prefix;
+    inbox().subscribe(prefix + "_WORLD", MessageTypes.WORLD, this::add);
     inbox().subscribe(prefix + "_SCENARIO", MessageTypes.SCENARIO, fields::add);
     inbox().subscribe(prefix + "_ORDERS", MessageTypes.ORDERS, orders::add);
     inbox().subscribe(prefix + "_TRANSITIONS", MessageTypes.TRANSITIONS, this::add);
@@ -66,9 +70,20 @@ final class FlightWindow extends Window {
     return controls;
   }
 
+  private void add(world_t message) {
+    worlds.add(message);
+    WorldNames names = worlds.of(message.run_id);
+    otherWorld = names == null || names.isUav() ? "" : names.world();
+  }
+
   private void add(transitions_t message) {
-    Flight episode = episodes.add(message);
-    if (episode != null) {
+    WorldNames names = worlds.of(message.run_id);
+    if (names == null || !names.isUav()) {
+      return;
+    }
+    Episode flown = episodes.add(message, names);
+    if (flown != null) {
+      Flight episode = Flight.of(flown);
       episode.kind = orders.describe(episode.runId, episode.number);
       player.offer(episode, orders.isEvaluation(episode.runId, episode.number));
     }
@@ -86,7 +101,7 @@ final class FlightWindow extends Window {
     player.tick(seconds);
     Flight flight = player.flight();
     if (flight == null) {
-      map.showMissing(String.format("waiting for flights on %s_TRANSITIONS and %s_FLIGHT", prefix, prefix));
+      map.showMissing(whatIsMissing());
       return;
     }
     setTitle(String.format("Fresco flight: %s, run %016x", flight.kind, flight.runId));
@@ -99,6 +114,12 @@ final class FlightWindow extends Window {
     } else {
       map.showMissing("waiting for the field of this run on " + prefix + "_SCENARIO");
     }
+  }
+
+  private String whatIsMissing() {
+    return otherWorld.isEmpty()
+        ? String.format("waiting for flights on %s_TRANSITIONS and %s_FLIGHT", prefix, prefix)
+        : "the world \"" + otherWorld + "\" has no flights; fresco spy --open episode shows its episodes";
   }
 
   @Override

@@ -40,6 +40,16 @@ final class Palette {
 
   static Color series(int index) { return new Color(SERIES[Math.floorMod(index, SERIES.length)]); }
 
+  /** Returns the stroke of a curve: dashed if all colours of `series` are taken already. */
+  static Stroke seriesStroke(int index, double width) {
+    return index < SERIES.length ? stroke(width) : dashed(width);
+  }
+
+  private static Stroke dashed(double width) {
+    return new BasicStroke(
+        (float) width, BasicStroke.CAP_BUTT, BasicStroke.JOIN_ROUND, 1, new float[] {6, 4}, 0);
+  }
+
   static Color withAlpha(Color colour, int alpha) {
     return new Color(colour.getRed(), colour.getGreen(), colour.getBlue(), alpha);
   }

@@ -35,6 +35,15 @@ final class Text {
                                      : String.format(Locale.ROOT, "%.4g", value);
   }
 
+  /** Returns a score or a sum of rewards; "-" if it is not finite. */
+  static String amount(double value) {
+    return orDash(value != 0 && Math.abs(value) < 0.1 ? "%.3g" : "%,.3f", value);
+  }
+
+  static String capitalised(String text) {
+    return text.isEmpty() ? text : text.substring(0, 1).toUpperCase(Locale.ROOT) + text.substring(1);
+  }
+
   /** Returns "-" if the value is not finite. */
   static String orDash(String format, double value) {
     return Double.isFinite(value) ? String.format(Locale.ROOT, format, value) : "-";

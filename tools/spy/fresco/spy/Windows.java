@@ -11,11 +11,14 @@ import lcm.spy.ChannelData;
 enum Windows {
   FLIGHT("Fresco: flight over the field", FlightWindow::new),
   LEARNER("Fresco: learner's curves", LearnerWindow::new),
-  ACTORS("Fresco: actors", ActorWindow::new);
+  ACTORS("Fresco: actors", ActorWindow::new),
+  EPISODE("Fresco: states and rewards of an episode", EpisodeWindow::new),
+  /** Flights in the UAV's world, episodes in any other, once the world is known. */
+  FITTING("Fresco: episodes as they fit the world", FittingWindow::new);
 
   private static final String DEFAULT_PREFIX = "FRESCO";
-  private static final String[] SUFFIXES = {
-      "_ORDERS", "_TRANSITIONS", "_ACTOR_STATUS", "_LEARNER_STATUS", "_SCENARIO", "_FLIGHT", "_RUN"};
+  private static final String[] SUFFIXES = {"_ORDERS", "_TRANSITIONS", "_ACTOR_STATUS", "_LEARNER_STATUS",
+      "_SCENARIO", "_FLIGHT", "_RUN", "_WORLD"};
 
   private final String title;
   private final Consumer<String> opener;

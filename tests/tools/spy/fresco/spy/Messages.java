@@ -3,11 +3,16 @@ package fresco.spy;
 import fresco.flight_t;
 import fresco.scenario_t;
 import fresco.transitions_t;
+import fresco.world_t;
 import java.io.ByteArrayOutputStream;
 import java.io.DataOutputStream;
 import java.io.IOException;
 import java.nio.ByteBuffer;
 import java.util.Arrays;
+import java.util.List;
+import java.util.stream.Collectors;
+import java.util.stream.IntStream;
+import java.util.stream.Stream;
 import java.util.zip.CRC32C;
 import lcm.lcm.LCMEncodable;
 
@@ -65,33 +70,92 @@ final class Messages {
     return message;
   }
 
+  /** The names of the UAV's world with two sensors. */
+  static WorldNames uav() {
+    Worlds worlds = new Worlds();
+    worlds.add(world(1, "uav",
+        List.of("column [cells]", "row [cells]", "time_margin [slots]", "energy_margin_j [J]",
+            "aoi_1 [slots]", "aoi_2 [slots]"),
+        15, 10_000));
+    return worlds.of(1);
+  }
+
+  /** The names of a world in one message: actions "action 0" and so on, the figure average_aoi. */
+  static world_t world(long run, String kind, List<String> state, int actions, int longestEpisode) {
+    world_t message = new world_t();
+    message.run_id = run;
+    message.world = kind;
+    message.success = "arrived";
+    message.state_size = state.size();
+    message.action_count = actions;
+    message.figure_count = 1;
+    message.entry_count = state.size() + actions + 1;
+    message.longest_episode = longestEpisode;
+    message.less_is_better = 1;
+    message.entries = Stream
+                          .of(state.stream(), IntStream.range(0, actions).mapToObj(i -> "action " + i),
+                              Stream.of("average_aoi [slots]"))
+                          .flatMap(lines -> lines)
+                          .map(line -> line + "\n")
+                          .collect(Collectors.joining());
+    return message;
+  }
+
+  /** Lines `first` .. of a message. */
+  static world_t part(world_t whole, int first, int count) {
+    world_t part = new world_t();
+    part.run_id = whole.run_id;
+    part.world = whole.world;
+    part.success = whole.success;
+    part.state_size = whole.state_size;
+    part.action_count = whole.action_count;
+    part.figure_count = whole.figure_count;
+    part.longest_episode = whole.longest_episode;
+    part.less_is_better = whole.less_is_better;
+    part.first_entry = first;
+    part.entry_count = count;
+    part.entries =
+        whole.entries.lines().skip(first).limit(count).map(line -> line + "\n").collect(Collectors.joining());
+    return part;
+  }
+
   /**
-   * Transitions `first` .. of an episode with two sensors; ages are slot numbers, columns transition
-   * numbers.
+   * Transitions `first` .. of an episode in the UAV's world with two sensors; ages are slot numbers, columns
+   * transition numbers, each reward is 2.
    */
-  static transitions_t transitions(long run, long order, int first, int count, int outcome) {
+  static transitions_t transitions(long run, long order, int first, int count, int ending) {
     transitions_t message = new transitions_t();
     message.run_id = run;
     message.order_index = order;
     message.actor_id = 7;
+    message.seed = 5;
     message.first_transition = first;
-    message.outcome = (byte) outcome;
+    message.ending = (byte) ending;
     message.transition_count = count;
     message.state_count = count + 1;
-    message.sensor_count = 2;
+    message.field_count = 6;
     message.mask_size = 2;
-    message.column = ages(first, count + 1);
-    message.row = message.time_margin = new short[count + 1];
-    message.energy_margin_j = new float[count + 1];
-    message.aoi = new short[count + 1][];
+    message.state = new float[count + 1][];
     for (int i = 0; i <= count; ++i) {
-      message.column[i] = (short) (first + i);
-      message.aoi[i] = ages(first + i + 1, 2);
+      int slot = first + i + 1;
+      message.state[i] = new float[] {first + i, 3, 4, 50, slot, slot};
     }
     message.action = new short[count];
     Arrays.fill(message.action, (short) (2 * 3 + 1)); // east, sensor 1
-    message.reward = message.td_error = new float[count];
+    message.reward = new float[count];
+    Arrays.fill(message.reward, 2);
+    message.td_error = new float[count];
     message.next_mask = new byte[count][2];
+    return message;
+  }
+
+  /** Some fields of a message that has all. */
+  static transitions_t fields(transitions_t message, int first, int count) {
+    message.first_field = first;
+    message.field_count = count;
+    for (int i = 0; i < message.state_count; ++i) {
+      message.state[i] = Arrays.copyOfRange(message.state[i], first, first + count);
+    }
     return message;
   }
 

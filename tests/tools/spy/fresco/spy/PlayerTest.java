@@ -12,7 +12,9 @@ public class PlayerTest {
   private final Player player = new Player();
 
   /** Of ten slots. */
-  private Flight episode(long order) { return episodes.add(Messages.transitions(1, order, 0, 9, 1)); }
+  private Flight episode(long order) {
+    return Flight.of(episodes.add(Messages.transitions(1, order, 0, 9, 1), Messages.uav()));
+  }
 
   private void pass(double seconds) {
     for (int i = 0; i < Math.round(seconds / 0.04); ++i) {

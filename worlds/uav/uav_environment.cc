@@ -1,4 +1,4 @@
-#include "worlds/uav/environment.h"
+#include "worlds/uav/uav_environment.h"
 
 #include <algorithm>
 #include <array>
@@ -21,11 +21,18 @@ const char* OutcomeName(Outcome outcome) {
   CheckFailed(__FILE_NAME__, __LINE__, "an outcome of 0 to 3");
 }
 
-Environment::Environment(const World& world) : world_(&world) {
-  Reset();
+Outcome FinalOutcome(float time_margin, float energy_margin_j) {
+  if (time_margin < 0) {
+    return Outcome::kOutOfTime;
+  }
+  return energy_margin_j < 0 ? Outcome::kOutOfEnergy : Outcome::kArrived;
 }
 
-void Environment::Reset() {
+UavEnvironment::UavEnvironment(const UavWorld& world) : world_(&world) {
+  UavEnvironment::Reset();  // by its full name: in a constructor no call is virtual
+}
+
+void UavEnvironment::Reset(uint64_t) {
   state_.slot = 1;
   state_.cell = world_->scenario().start;
   state_.aoi.assign(static_cast<size_t>(world_->sensors()), 1);
@@ -34,7 +41,7 @@ void Environment::Reset() {
   UpdateMargins();
 }
 
-StepResult Environment::Step(Action action) {
+StepResult UavEnvironment::Step(Action action) {
   FRESCO_CHECK(outcome_ == Outcome::kFlying);
   FRESCO_CHECK(action.schedule >= 0 && action.schedule <= world_->sensors());
   Collect(action.schedule);  // from o_t, before the move
@@ -44,11 +51,20 @@ StepResult Environment::Step(Action action) {
   ++state_.slot;
   UpdateMargins();
   outcome_ = PresentOutcome();
-  return {RewardOfState(), outcome_};
+  return {RewardOfState(), outcome_ == Outcome::kFlying ? Ending::kNone : Ending::kTerminal};
+}
+
+void UavEnvironment::WriteState(std::span<float> state) const {
+  FRESCO_CHECK(state.size() == kAoiField + state_.aoi.size());
+  state[kColumnField] = static_cast<float>(state_.cell.column);
+  state[kRowField] = static_cast<float>(state_.cell.row);
+  state[kTimeMarginField] = static_cast<float>(state_.time_margin);
+  state[kEnergyMarginField] = state_.energy_margin_j;
+  std::copy(state_.aoi.begin(), state_.aoi.end(), state.begin() + kAoiField);
 }
 
 // Eq. (Dynamic-AoI). If the scenario has a maximum_aoi, AoI grows no further than that.
-void Environment::Collect(int schedule) {
+void UavEnvironment::Collect(int schedule) {
   const int cap = world_->scenario().maximum_aoi.value_or(world_->scenario().slots);
   for (int sensor = 0; sensor < world_->sensors(); ++sensor) {
     const bool collected = schedule == sensor + 1 && world_->Covers(state_.cell, sensor);
@@ -58,11 +74,11 @@ void Environment::Collect(int schedule) {
 }
 
 // A move off the grid leaves the UAV where it is, so it takes the energy of a hover.
-double Environment::SlotEnergy(Cell next) const {
+double UavEnvironment::SlotEnergy(Cell next) const {
   return next == state_.cell ? world_->hovering_energy_j() : world_->flying_energy_j();
 }
 
-void Environment::UpdateMargins() {
+void UavEnvironment::UpdateMargins() {
   const int slots_left = world_->scenario().slots - state_.slot;
   state_.time_margin = slots_left - world_->DistanceToStop(state_.cell);
   state_.energy_margin_j = static_cast<float>(EnergyMargin(*world_, state_.cell, slots_left, remaining_j_));
@@ -70,17 +86,14 @@ void Environment::UpdateMargins() {
 
 // If no slot is left, phi >= 0 means that the UAV is over the stop. Rounding Delta to float keeps its sign,
 // since Delta is either zero or far above the smallest float.
-Outcome Environment::PresentOutcome() const {
-  if (state_.time_margin < 0) {
-    return Outcome::kOutOfTime;
-  }
-  if (state_.energy_margin_j < 0) {
-    return Outcome::kOutOfEnergy;
-  }
-  return state_.slot == world_->scenario().slots ? Outcome::kArrived : Outcome::kFlying;
+Outcome UavEnvironment::PresentOutcome() const {
+  const bool ended =
+      state_.slot == world_->scenario().slots || state_.time_margin < 0 || state_.energy_margin_j < 0;
+  return ended ? FinalOutcome(static_cast<float>(state_.time_margin), state_.energy_margin_j)
+               : Outcome::kFlying;
 }
 
-double Environment::RewardOfState() const {
+double UavEnvironment::RewardOfState() const {
   double weighted_aoi = 0;
   for (size_t sensor = 0; sensor < state_.aoi.size(); ++sensor) {
     weighted_aoi += world_->theta()[sensor] * state_.aoi[sensor];
@@ -93,7 +106,7 @@ double Environment::RewardOfState() const {
   return reward;
 }
 
-bool Environment::IsSafe(Move move) const {
+bool UavEnvironment::IsSafe(Move move) const {
   const int slots_left = world_->scenario().slots - state_.slot - 1;
   const Cell next = world_->After(state_.cell, move);
   const bool off_grid = move != Move::kHover && next == state_.cell;
@@ -101,7 +114,7 @@ bool Environment::IsSafe(Move move) const {
          CanReachStop(*world_, next, slots_left, remaining_j_ - SlotEnergy(next));
 }
 
-void Environment::WriteMask(MaskOptions options, std::span<uint8_t> mask) const {
+void UavEnvironment::WriteMask(MaskOptions options, std::span<uint8_t> mask) const {
   FRESCO_CHECK(mask.size() == static_cast<size_t>(world_->actions()));
   std::array<uint8_t, kMoves> allowed{};
   for (int move = 0; move < kMoves; ++move) {

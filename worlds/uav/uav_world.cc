@@ -1,21 +1,29 @@
-#include "worlds/uav/world.h"
+#include "worlds/uav/uav_world.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "worlds/uav/aoi_figures.h"
+#include "worlds/uav/baselines.h"
+#include "worlds/uav/flight.h"
 #include "worlds/uav/physics.h"
+#include "worlds/uav/uav_environment.h"
 
 namespace fresco {
 namespace {
 
-// The largest product of cells and sensors. For each pair, World holds one byte and NetworkInput up to eight.
-// An actor receives its scenario from the bus, so no scenario may take too much memory.
+constexpr char kAoiPolicy[] = "aoi";
+constexpr char kDistancePolicy[] = "distance";
+// The largest product of cells and sensors. For each pair, UavWorld holds one byte and its NetworkInput up to
+// eight. An actor receives its scenario from the bus, so no scenario may take too much memory.
 constexpr int64_t kMaximumCellsTimesSensors = 10'000'000;
 // The largest energy of a slot, joules. It keeps energy margins finite as the floats that messages carry.
 constexpr double kMaximumEnergyJ = 1e12;
@@ -82,7 +90,7 @@ void CheckStopIsReachableInTime(const Scenario& scenario) {
   }
 }
 
-Scenario Checked(Scenario scenario) {
+const Scenario& Checked(const Scenario& scenario) {
   CheckCell("scenario.start", scenario.start, scenario);
   CheckCell("scenario.stop", scenario.stop, scenario);
   CheckSensors(scenario.sensors);
@@ -91,6 +99,41 @@ Scenario Checked(Scenario scenario) {
   CheckSpeed(scenario);
   CheckStopIsReachableInTime(scenario);
   return scenario;
+}
+
+std::vector<Quantity> StateFields(size_t sensors) {
+  std::vector<Quantity> fields = {
+      {"column", "cells"}, {"row", "cells"}, {"time_margin", "slots"}, {"energy_margin_j", "J"}};
+  for (size_t sensor = 1; sensor <= sensors; ++sensor) {
+    fields.push_back({fmt::format("aoi_{}", sensor), "slots"});
+  }
+  return fields;
+}
+
+std::vector<std::string> ActionNames(size_t sensors) {
+  std::vector<std::string> names;
+  for (int move = 0; move < kMoves; ++move) {
+    for (size_t schedule = 0; schedule <= sensors; ++schedule) {
+      const char* name = MoveName(static_cast<Move>(move));
+      names.push_back(schedule == 0 ? name : fmt::format("{}, sensor {}", name, schedule));
+    }
+  }
+  return names;
+}
+
+WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
+  const size_t sensors = scenario.sensors.size();
+  WorldDescription description;
+  description.name = "uav";
+  description.state = StateFields(sensors);
+  description.actions = ActionNames(sensors);
+  description.observation_size = NetworkInput::Size(static_cast<int>(sensors), options.network_input);
+  description.longest_episode = scenario.slots - 1;
+  description.random = false;
+  description.figures = {{"average_aoi", "slots"}, {"total_aoi", "slots"}, {"sum_aoi", "slots"}};
+  description.less_is_better = true;
+  description.success = "arrived";
+  return description;
 }
 
 double RoundTo(double value, double quantum) {
@@ -122,11 +165,13 @@ const char* MoveName(Move move) {
   CheckFailed(__FILE_NAME__, __LINE__, "a move of 0 to 4");
 }
 
-World::World(Scenario scenario) : scenario_(Checked(std::move(scenario))) {
+UavWorld::UavWorld(Scenario scenario, UavOptions options)
+    : World(Describe(Checked(scenario), options)), scenario_(std::move(scenario)), options_(options) {
   DeriveEnergies();
   DeriveTheta();
   DeriveCoverage();
-  const int moves = maximum_transitions();
+  network_input_.emplace(*this, options.network_input);
+  const int moves = longest_episode();
   if (!CanReachStop(*this, scenario_.start, moves, scenario_.initial_energy_j)) {
     const double needed_j = CompletionEnergy(*this, scenario_.start, moves);
     throw UsageError(fmt::format(
@@ -138,7 +183,7 @@ World::World(Scenario scenario) : scenario_(Checked(std::move(scenario))) {
 
 // Rounds the energies to multiples of a power of two. It is so large that sums over a whole flight are exact
 // in double, and so small (about 1e-15 of the total) that the rounding has no other effect.
-void World::DeriveEnergies() {
+void UavWorld::DeriveEnergies() {
   const double flying_j = PropulsionPower(scenario_.rotor, scenario_.speed_mps) * scenario_.slot_s;
   const double hovering_j = PropulsionPower(scenario_.rotor, 0) * scenario_.slot_s;
   RequireWithin("scenario.rotor: the energy in joules of a slot's flight", flying_j, 0, kMaximumEnergyJ);
@@ -152,7 +197,7 @@ void World::DeriveEnergies() {
   scenario_.initial_energy_j = RoundTo(scenario_.initial_energy_j, quantum);
 }
 
-void World::DeriveTheta() {
+void UavWorld::DeriveTheta() {
   double total_weight = 0;
   for (const Sensor& sensor : scenario_.sensors) {
     total_weight += sensor.weight;
@@ -162,7 +207,7 @@ void World::DeriveTheta() {
   }
 }
 
-void World::DeriveCoverage() {
+void UavWorld::DeriveCoverage() {
   coverage_.reserve(static_cast<size_t>(scenario_.columns) * scenario_.rows * scenario_.sensors.size());
   for (int row = 0; row < scenario_.rows; ++row) {
     for (int column = 0; column < scenario_.columns; ++column) {
@@ -174,18 +219,75 @@ void World::DeriveCoverage() {
   }
 }
 
-int64_t World::bytes() const {
+int64_t UavWorld::bytes() const {
   const auto size = [](const auto& vector) {
     return static_cast<int64_t>(vector.size() * sizeof(vector[0]));
   };
-  return size(scenario_.sensors) + size(theta_) + size(coverage_);
+  return size(scenario_.sensors) + size(theta_) + size(coverage_) + network_input_->bytes();
 }
 
-bool World::OnGrid(Cell cell) const {
+std::unique_ptr<Environment> UavWorld::NewEnvironment() const {
+  return std::make_unique<UavEnvironment>(*this);
+}
+
+void UavWorld::Observe(std::span<const float> state, std::span<float> observation) const {
+  network_input_->Write(state, observation);
+}
+
+void UavWorld::Judge(const Episode& episode, std::span<double> figures) const {
+  const AoiFigures aoi = Figures(*this, episode);
+  figures[static_cast<size_t>(UavFigure::kAverageAoi)] = aoi.average_aoi;
+  figures[static_cast<size_t>(UavFigure::kTotalAoi)] = static_cast<double>(aoi.total_aoi);
+  figures[static_cast<size_t>(UavFigure::kSumAoi)] = aoi.sum_aoi;
+}
+
+bool UavWorld::Succeeded(const Episode& episode) const {
+  return OutcomeOf(episode) == Outcome::kArrived;
+}
+
+std::vector<ReferencePolicy> UavWorld::reference_policies() const {
+  return {{kAoiPolicy, "AoI-based"}, {kDistancePolicy, "distance-based"}};
+}
+
+Episode UavWorld::FlyReference(const std::string& name) const {
+  FRESCO_CHECK(name == kAoiPolicy || name == kDistancePolicy);
+  return FlyBaseline(*this, name == kAoiPolicy ? BaselineKind::kAoi : BaselineKind::kDistance);
+}
+
+int UavWorld::DrawPlace(RandomStream& stream) const {
+  const auto column = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario_.columns)));
+  const auto row = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario_.rows)));
+  return CellIndex({column, row});
+}
+
+bool UavWorld::IsAt(std::span<const float> state, int place) const {
+  return CellIndex(CellIn(state)) == place;
+}
+
+ActionRange UavWorld::Towards(std::span<const float> state, int place) const {
+  const Cell goal = {place % scenario_.columns, place / scenario_.columns};
+  const int first = ActionIndex({MoveTowards(CellIn(state), goal), 0});
+  return {first, first + sensors() + 1};
+}
+
+const UavWorld* AsUavWorld(const World& world) {
+  return dynamic_cast<const UavWorld*>(&world);
+}
+
+const UavWorld& RequireUavWorld(const World& world, const std::string& what) {
+  const UavWorld* uav = AsUavWorld(world);
+  if (uav == nullptr) {
+    throw UsageError(fmt::format("{}: only the UAV's world (scenario) has this; the world is {}", what,
+                                 world.description().name));
+  }
+  return *uav;
+}
+
+bool UavWorld::OnGrid(Cell cell) const {
   return cell.column >= 0 && cell.column < scenario_.columns && cell.row >= 0 && cell.row < scenario_.rows;
 }
 
-Cell World::After(Cell cell, Move move) const {
+Cell UavWorld::After(Cell cell, Move move) const {
   Cell next = cell;
   switch (move) {
     case Move::kNorth:
@@ -206,11 +308,11 @@ Cell World::After(Cell cell, Move move) const {
   return OnGrid(next) ? next : cell;
 }
 
-int World::DistanceToStop(Cell cell) const {
+int UavWorld::DistanceToStop(Cell cell) const {
   return std::abs(cell.column - scenario_.stop.column) + std::abs(cell.row - scenario_.stop.row);
 }
 
-Action World::ActionAt(int index) const {
+Action UavWorld::ActionAt(int index) const {
   FRESCO_CHECK(index >= 0 && index < actions());
   return {static_cast<Move>(index / (sensors() + 1)), index % (sensors() + 1)};
 }
@@ -227,7 +329,7 @@ Move MoveTowards(Cell from, Cell to) {
   return rows > 0 ? Move::kNorth : Move::kSouth;
 }
 
-double EnergyMargin(const World& world, Cell cell, int slots_left, double remaining_j) {
+double EnergyMargin(const UavWorld& world, Cell cell, int slots_left, double remaining_j) {
   if (world.flying_energy_j() <= world.hovering_energy_j()) {
     return remaining_j - slots_left * world.flying_energy_j();
   }
@@ -235,7 +337,7 @@ double EnergyMargin(const World& world, Cell cell, int slots_left, double remain
   return remaining_j - flown * world.flying_energy_j() - (slots_left - flown) * world.hovering_energy_j();
 }
 
-double CompletionEnergy(const World& world, Cell cell, int slots_left) {
+double CompletionEnergy(const UavWorld& world, Cell cell, int slots_left) {
   const int slack = slots_left - world.DistanceToStop(cell);
   FRESCO_CHECK(slack >= 0);
   const bool hovering_costs_more = world.hovering_energy_j() > world.flying_energy_j();
@@ -245,7 +347,7 @@ double CompletionEnergy(const World& world, Cell cell, int slots_left) {
   return (slots_left - hovers) * world.flying_energy_j() + hovers * world.hovering_energy_j();
 }
 
-bool CanReachStop(const World& world, Cell cell, int slots_left, double remaining_j) {
+bool CanReachStop(const UavWorld& world, Cell cell, int slots_left, double remaining_j) {
   return world.DistanceToStop(cell) <= slots_left && remaining_j >= CompletionEnergy(world, cell, slots_left);
 }
 

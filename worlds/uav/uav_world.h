@@ -1,12 +1,17 @@
-// A world is a checked scenario with everything that is derived from it: coverage, energies, distances, the
-// numbering of actions, reachability. Immutable after construction, so any number of threads may share one.
+// The world of the paper: a checked scenario with everything that is derived from it: coverage, energies,
+// distances, the numbering of actions, reachability. Immutable after construction, so any number of threads
+// may share one.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "worlds/uav/network_input.h"
 #include "worlds/uav/scenario.h"
+#include "worlds/world.h"
 
 namespace fresco {
 
@@ -23,8 +28,10 @@ struct Action {
   bool operator==(const Action&) const = default;
 };
 
-/// The state s_t of the paper in its natural units, as messages carry it.
-struct State {
+/// The state s_t of the paper in its natural units. As floats (WorldDescription::state), its fields follow
+/// each other in this order, without the slot: state i of an episode that begins at the start is that of slot
+/// i + 1.
+struct UavState {
   int slot = 1;               ///< t, 1 .. T
   Cell cell;                  ///< o_t
   int time_margin = 0;        ///< phi_t, slots; negative: the stop can't be reached in time
@@ -32,23 +39,59 @@ struct State {
   std::vector<int16_t> aoi;   ///< delta_{n,t}, slots, one entry for each sensor, 1 .. T (or maximum_aoi)
 };
 
-class World {
+/// Where each field is in a state as floats.
+inline constexpr size_t kColumnField = 0;
+inline constexpr size_t kRowField = 1;
+inline constexpr size_t kTimeMarginField = 2;
+inline constexpr size_t kEnergyMarginField = 3;
+inline constexpr size_t kAoiField = 4;  ///< of the first sensor; the others follow
+
+/// Which actions the mask forbids.
+struct MaskOptions {
+  bool safe_actions = false;  ///< forbid moves off the grid, and moves after which the stop can't be reached
+  bool coverage = false;      ///< forbid scheduling sensors that the UAV does not cover now
+};
+
+/// How agents see the world and what they may do in it; the scenario is the same.
+struct UavOptions {
+  MaskOptions mask = {};
+  NetworkInputOptions network_input = {};
+};
+
+/// The order of the figures by which the world judges an episode (AoiFigures).
+enum class UavFigure : size_t { kAverageAoi = 0, kTotalAoi = 1, kSumAoi = 2 };
+
+class UavWorld : public World {
  public:
   /// Every value must be in its range (msgs/proto/experiment.proto; Experiment checks it). Throws UsageError
   /// if values do not fit together: a start off the grid, weights that sum to 0, more cells and sensors than
   /// memory allows, a speed that is not one cell a slot, an update that no signal could carry, or a stop that
   /// can't be reached in time and energy. The error names the scenario's field, the value and what is
   /// allowed.
-  explicit World(Scenario scenario);
+  explicit UavWorld(Scenario scenario, UavOptions options = {});
+
+  std::unique_ptr<Environment> NewEnvironment() const override;
+  void Observe(std::span<const float> state, std::span<float> observation) const override;
+  void Judge(const Episode& episode, std::span<double> figures) const override;
+  bool Succeeded(const Episode& episode) const override;
+  /// The paper's two comparison algorithms (worlds/uav/baselines.h).
+  std::vector<ReferencePolicy> reference_policies() const override;
+  Episode FlyReference(const std::string& name) const override;
+  /// The places of excursions are the cells.
+  bool has_places() const override { return true; }
+  /// The index of a cell (CellIndex).
+  int DrawPlace(RandomStream& stream) const override;
+  bool IsAt(std::span<const float> state, int place) const override;
+  /// One move towards the cell, with any schedule.
+  ActionRange Towards(std::span<const float> state, int place) const override;
 
   /// The scenario as given; only initial_energy_j is rounded, see flying_energy_j().
   const Scenario& scenario() const { return scenario_; }
   int sensors() const { return static_cast<int>(scenario_.sensors.size()); }  ///< N
-  int actions() const { return kMoves * (sensors() + 1); }                    ///< 5 (N + 1)
-  int maximum_transitions() const { return scenario_.slots - 1; }             ///< of an episode, T - 1
+  const MaskOptions& mask_options() const { return options_.mask; }
 
   /// The memory of the coverage table and the other derived values, bytes.
-  int64_t bytes() const;
+  int64_t bytes() const override;
 
   /// The weights theta_n [N], which sum to one.
   std::span<const double> theta() const { return theta_; }
@@ -87,24 +130,32 @@ class World {
   void DeriveCoverage();
 
   Scenario scenario_;
+  UavOptions options_;
   std::vector<double> theta_;
   std::vector<uint8_t> coverage_;
   double flying_energy_j_ = 0;
   double hovering_energy_j_ = 0;
+  std::optional<NetworkInput> network_input_;  // always, once the world is constructed
 };
+
+/// The world as a UavWorld; null if it is another kind of world. What only this kind has (baselines, an exact
+/// optimum, drawings of flights) begins here.
+const UavWorld* AsUavWorld(const World& world);
+/// The same. Throws UsageError if it is another kind of world: "a flight: …". `what` says who needs it.
+const UavWorld& RequireUavWorld(const World& world, const std::string& what);
 
 /// Returns Delta_t: the joules left after `slots_left` more slots from `cell` with `remaining_j` joules on
 /// board. If flying takes no more energy than hovering, P(V) <= P(0), all these slots are counted as flown,
 /// as in the paper. (That is an upper bound: an odd number of spare slots takes a hover, see
 /// CompletionEnergy.) Otherwise the distance to the stop is flown and the spare slots are hovered. If
 /// time_margin < 0, there are no spare slots.
-double EnergyMargin(const World& world, Cell cell, int slots_left, double remaining_j);
+double EnergyMargin(const UavWorld& world, Cell cell, int slots_left, double remaining_j);
 
 /// Returns the joules of the cheapest flight from `cell` to the stop in exactly `slots_left` slots; CHECKs
 /// that these are at least the distance. If flying takes no less energy than hovering, the spare slots are
 /// hovered. Otherwise they are flown to and fro, two at a time, so only an odd number of them takes one
 /// hover. (On a grid of a single cell there is nowhere to fly, so all of them are hovered.)
-double CompletionEnergy(const World& world, Cell cell, int slots_left);
+double CompletionEnergy(const UavWorld& world, Cell cell, int slots_left);
 
 /// Returns the move towards `to` along the axis with the larger distance, along columns if they are equal; a
 /// hover if `from` is `to`.
@@ -112,6 +163,6 @@ Move MoveTowards(Cell from, Cell to);
 
 /// Whether the stop can still be reached from `cell` in `slots_left` slots with `remaining_j` joules. This is
 /// exact.
-bool CanReachStop(const World& world, Cell cell, int slots_left, double remaining_j);
+bool CanReachStop(const UavWorld& world, Cell cell, int slots_left, double remaining_j);
 
 }  // namespace fresco

@@ -1,4 +1,4 @@
-#include "worlds/uav/environment.h"
+#include "worlds/uav/uav_environment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,15 +21,15 @@ Scenario SmallScenario() {
   return scenario;
 }
 
-void ExpectState(const Environment& environment, Cell cell, int time_margin, std::vector<int16_t> aoi) {
+void ExpectState(const UavEnvironment& environment, Cell cell, int time_margin, std::vector<int16_t> aoi) {
   EXPECT_EQ(environment.state().cell, cell);
   EXPECT_EQ(environment.state().time_margin, time_margin);
   EXPECT_EQ(environment.state().aoi, aoi);
 }
 
-TEST(Environment, FliesTheFlightWorkedByHand) {
-  const World world(SmallScenario());
-  Environment environment(world);
+TEST(UavEnvironment, FliesTheFlightWorkedByHand) {
+  const UavWorld world(SmallScenario());
+  UavEnvironment environment(world);
   ExpectState(environment, {0, 0}, 3, {1, 1});
   EXPECT_NEAR(environment.Step({Move::kNorth, 1}).reward, -1.75 / 6, 1e-15);
   ExpectState(environment, {0, 1}, 1, {1, 2});
@@ -41,33 +41,34 @@ TEST(Environment, FliesTheFlightWorkedByHand) {
   ExpectState(environment, {2, 1}, 0, {4, 2});
   const StepResult last = environment.Step({Move::kSouth, 2});
   EXPECT_NEAR(last.reward, -2.0 / 6 + 5, 1e-15);
-  EXPECT_EQ(last.outcome, Outcome::kArrived);
+  EXPECT_TRUE(last.terminal());
+  EXPECT_EQ(environment.outcome(), Outcome::kArrived);
   ExpectState(environment, {2, 0}, 0, {5, 1});
   EXPECT_NEAR(environment.remaining_energy_j(), 22000 - 219.82 - 4 * 112.8758628, 1e-6);
 }
 
-TEST(Environment, TransmitsFromWhereItIsBeforeItMoves) {
+TEST(UavEnvironment, TransmitsFromWhereItIsBeforeItMoves) {
   Scenario scenario = SmallScenario();
   scenario.coverage_radius_m = 0;
-  const World world(scenario);
-  Environment environment(world);
+  const UavWorld world(scenario);
+  UavEnvironment environment(world);
   environment.Step({Move::kEast, 1});
   EXPECT_THAT(environment.state().aoi, ElementsAre(1, 2));
   environment.Step({Move::kWest, 1});  // flies back to the sensor, but transmits beside it
   EXPECT_THAT(environment.state().aoi, ElementsAre(2, 3));
 }
 
-TEST(Environment, StartsWithTheMarginsOfTableOne) {
-  const World world(TableOneScenario());
-  const Environment environment(world);
+TEST(UavEnvironment, StartsWithTheMarginsOfTableOne) {
+  const UavWorld world(TableOneScenario());
+  const UavEnvironment environment(world);
   EXPECT_EQ(environment.state().slot, 1);
   EXPECT_EQ(environment.state().time_margin, 50);
   EXPECT_NEAR(environment.state().energy_margin_j, 22000 - 69 * 112.8758628, 1e-3);
 }
 
-TEST(Environment, LowersTheEnergyMarginByHoversOnly) {
-  const World world(TableOneScenario());
-  Environment environment(world);
+TEST(UavEnvironment, LowersTheEnergyMarginByHoversOnly) {
+  const UavWorld world(TableOneScenario());
+  UavEnvironment environment(world);
   const float before_j = environment.state().energy_margin_j;
   environment.Step({Move::kEast, 0});
   EXPECT_EQ(environment.state().energy_margin_j, before_j);
@@ -75,10 +76,10 @@ TEST(Environment, LowersTheEnergyMarginByHoversOnly) {
   EXPECT_NEAR(environment.state().energy_margin_j, before_j - 106.9441372, 1e-3);
 }
 
-TEST(Environment, CountsAMoveOffTheGridAsAHover) {
-  const World world(TableOneScenario());
-  Environment hovering(world);
-  Environment blocked(world);
+TEST(UavEnvironment, CountsAMoveOffTheGridAsAHover) {
+  const UavWorld world(TableOneScenario());
+  UavEnvironment hovering(world);
+  UavEnvironment blocked(world);
   hovering.Step({Move::kHover, 2});
   blocked.Step({Move::kSouth, 2});
   EXPECT_EQ(blocked.state().cell, (Cell{10, 0}));
@@ -86,54 +87,58 @@ TEST(Environment, CountsAMoveOffTheGridAsAHover) {
   EXPECT_EQ(blocked.remaining_energy_j(), hovering.remaining_energy_j());
 }
 
-TEST(Environment, EndsWhereTheStopIsOutOfReachInTime) {
-  const World world(SmallScenario());
-  Environment environment(world);
+TEST(UavEnvironment, EndsWhereTheStopIsOutOfReachInTime) {
+  const UavWorld world(SmallScenario());
+  UavEnvironment environment(world);
   environment.Step({Move::kNorth, 0});
   const StepResult result = environment.Step({Move::kNorth, 0});
-  EXPECT_EQ(result.outcome, Outcome::kOutOfTime);
+  EXPECT_TRUE(result.terminal());
+  EXPECT_EQ(environment.outcome(), Outcome::kOutOfTime);
   EXPECT_EQ(environment.state().time_margin, -1);
   EXPECT_NEAR(result.reward, -3.0 / 6 - 10, 1e-12);
 }
 
-TEST(Environment, EndsWhereTheEnergyDoesNotSuffice) {
+TEST(UavEnvironment, EndsWhereTheEnergyDoesNotSuffice) {
   Scenario scenario = SmallScenario();
   scenario.initial_energy_j = 5 * 112.8758628 + 110;  // one hover and no more
-  const World world(scenario);
-  Environment environment(world);
-  EXPECT_EQ(environment.Step({Move::kHover, 0}).outcome, Outcome::kFlying);
+  const UavWorld world(scenario);
+  UavEnvironment environment(world);
+  EXPECT_FALSE(environment.Step({Move::kHover, 0}).terminal());
+  EXPECT_EQ(environment.outcome(), Outcome::kFlying);
   const StepResult result = environment.Step({Move::kHover, 0});
-  EXPECT_EQ(result.outcome, Outcome::kOutOfEnergy);
+  EXPECT_TRUE(result.terminal());
+  EXPECT_EQ(environment.outcome(), Outcome::kOutOfEnergy);
   EXPECT_NEAR(result.reward, -3.0 / 6 - 20, 1e-12);
 }
 
-TEST(Environment, ChargesBothPenaltiesWhereOneMoveBreaksBoth) {
+TEST(UavEnvironment, ChargesBothPenaltiesWhereOneMoveBreaksBoth) {
   Scenario scenario = SmallScenario();
   scenario.slots = 3;
   scenario.initial_energy_j = 2 * 112.8758628 + 1;
-  const World world(scenario);
-  Environment environment(world);
+  const UavWorld world(scenario);
+  UavEnvironment environment(world);
   const StepResult result = environment.Step({Move::kHover, 0});
-  EXPECT_EQ(result.outcome, Outcome::kOutOfTime);
+  EXPECT_TRUE(result.terminal());
+  EXPECT_EQ(environment.outcome(), Outcome::kOutOfTime);
   EXPECT_NEAR(result.reward, -2.0 / 3 - 10 - 20, 1e-12);
 }
 
-TEST(Environment, CapsTheAoi) {
+TEST(UavEnvironment, CapsTheAoi) {
   Scenario scenario = SmallScenario();
   scenario.maximum_aoi = 2;
-  const World world(scenario);
-  Environment environment(world);
+  const UavWorld world(scenario);
+  UavEnvironment environment(world);
   for (int slot = 0; slot < 3; ++slot) {
     environment.Step({Move::kHover, 0});
   }
   EXPECT_THAT(environment.state().aoi, ElementsAre(2, 2));
 }
 
-TEST(Environment, KeepsItsMarginWhereFlyingIsTheDearerAndSlackIsHovered) {
+TEST(UavEnvironment, KeepsItsMarginWhereFlyingIsTheDearerAndSlackIsHovered) {
   Scenario scenario = SmallScenario();
   scenario.rotor = LiteratureRotor();
-  const World world(scenario);
-  Environment environment(world);
+  const UavWorld world(scenario);
+  UavEnvironment environment(world);
   const double difference_j = world.flying_energy_j() - world.hovering_energy_j();
   const double first_j = 22000 - 2 * world.flying_energy_j() - 3 * world.hovering_energy_j();
   EXPECT_NEAR(environment.state().energy_margin_j, first_j, 1e-3);
@@ -143,20 +148,20 @@ TEST(Environment, KeepsItsMarginWhereFlyingIsTheDearerAndSlackIsHovered) {
   EXPECT_NEAR(environment.state().energy_margin_j, first_j - 2 * difference_j, 1e-3);
 }
 
-TEST(Environment, ResetIsANewBeginning) {
-  const World world(SmallScenario());
-  Environment used(world);
+TEST(UavEnvironment, ResetIsANewBeginning) {
+  const UavWorld world(SmallScenario());
+  UavEnvironment used(world);
   used.Step({Move::kHover, 1});
   used.Reset();
-  const Environment fresh(world);
+  const UavEnvironment fresh(world);
   EXPECT_EQ(used.state().slot, 1);
   ExpectState(used, fresh.state().cell, fresh.state().time_margin, fresh.state().aoi);
   EXPECT_EQ(used.remaining_energy_j(), fresh.remaining_energy_j());
 }
 
-TEST(Environment, MasksWhatIsUnsafeOrUncovered) {
-  const World world(SmallScenario());
-  const Environment environment(world);  // over (0, 0): south and west leave the grid
+TEST(UavEnvironment, MasksWhatIsUnsafeOrUncovered) {
+  const UavWorld world(SmallScenario());
+  const UavEnvironment environment(world);  // over (0, 0): south and west leave the grid
   std::vector<uint8_t> mask(15);
   environment.WriteMask({}, mask);
   EXPECT_THAT(mask, testing::Each(1));
@@ -168,9 +173,9 @@ TEST(Environment, MasksWhatIsUnsafeOrUncovered) {
   EXPECT_THAT(mask, ElementsAre(1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0));
 }
 
-TEST(Environment, MasksNothingOnceTheEpisodeIsOver) {
-  const World world(SmallScenario());
-  Environment environment(world);
+TEST(UavEnvironment, MasksNothingOnceTheEpisodeIsOver) {
+  const UavWorld world(SmallScenario());
+  UavEnvironment environment(world);
   environment.Step({Move::kNorth, 0});
   environment.Step({Move::kNorth, 0});
   ASSERT_EQ(environment.outcome(), Outcome::kOutOfTime);
@@ -179,9 +184,9 @@ TEST(Environment, MasksNothingOnceTheEpisodeIsOver) {
   EXPECT_THAT(mask, testing::Each(1));
 }
 
-TEST(EnvironmentDeathTest, RefusesAStepAfterTheEnd) {
-  const World world(SmallScenario());
-  Environment environment(world);
+TEST(UavEnvironmentDeathTest, RefusesAStepAfterTheEnd) {
+  const UavWorld world(SmallScenario());
+  UavEnvironment environment(world);
   environment.Step({Move::kNorth, 0});
   environment.Step({Move::kNorth, 0});
   EXPECT_DEATH(environment.Step({Move::kHover, 0}), "Outcome::kFlying");

@@ -1,0 +1,95 @@
+#include "msgs/uav_config.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "worlds/uav/physics.h"
+
+namespace fresco {
+namespace {
+
+void SetCell(proto::Cell& cell, int column, int row) {
+  cell.set_column(column);
+  cell.set_row(row);
+}
+
+Rotor ToRotor(const proto::Rotor& rotor) {
+  return {rotor.blade_profile_power_w(),
+          rotor.induced_power_w(),
+          rotor.tip_speed_mps(),
+          rotor.induced_velocity_mps(),
+          rotor.drag_ratio(),
+          rotor.air_density_kgpm3(),
+          rotor.solidity(),
+          rotor.disk_area_m2()};
+}
+
+Scenario ToScenario(const proto::Scenario& from) {
+  Scenario scenario;
+  scenario.columns = from.grid().columns();
+  scenario.rows = from.grid().rows();
+  scenario.cell_m = from.grid().cell_m();
+  scenario.slots = from.slots();
+  scenario.slot_s = from.slot_s();
+  scenario.start = {from.start().column(), from.start().row()};
+  scenario.stop = {from.stop().column(), from.stop().row()};
+  for (const proto::Sensor& sensor : from.sensor()) {
+    scenario.sensors.push_back({sensor.x_m(), sensor.y_m(), sensor.weight()});
+  }
+  if (from.has_random_sensors()) {
+    scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m,
+                                     from.random_sensors().count(), from.random_sensors().seed());
+  }
+  scenario.radio = {from.radio().bandwidth_hz(), from.radio().update_bits(), from.radio().noise_dbm(),
+                    from.radio().gain_at_1m_db(), from.radio().altitude_m()};
+  scenario.coverage_radius_m = from.has_transmit_power_w()
+                                   ? CoverageRadius(scenario.radio, scenario.slot_s, from.transmit_power_w())
+                                   : from.coverage_radius_m();
+  scenario.initial_energy_j = from.initial_energy_j();
+  scenario.rotor = ToRotor(from.rotor());
+  scenario.speed_mps = from.speed_mps();
+  scenario.reward = {from.reward().k1(), from.reward().k2(), from.reward().k3()};
+  if (from.has_maximum_aoi()) {
+    scenario.maximum_aoi = from.maximum_aoi();
+  }
+  return scenario;
+}
+
+}  // namespace
+
+void CompleteScenario(proto::ExperimentConfig& config) {
+  proto::Scenario& scenario = *config.mutable_scenario();
+  if (scenario.has_random_sensors() && !scenario.sensor().empty()) {
+    throw UsageError(
+        fmt::format("scenario.sensor ({} given) and scenario.random_sensors contradict each other; "
+                    "allowed: one of the two",
+                    scenario.sensor_size()));
+  }
+  scenario.mutable_grid();
+  scenario.mutable_radio();
+  scenario.mutable_rotor();
+  scenario.mutable_reward();
+  if (!scenario.has_start()) {
+    SetCell(*scenario.mutable_start(), 10, 0);
+  }
+  if (!scenario.has_stop()) {
+    SetCell(*scenario.mutable_stop(), 10, 19);
+  }
+  SetCell(*scenario.mutable_start(), scenario.start().column(), scenario.start().row());
+  SetCell(*scenario.mutable_stop(), scenario.stop().column(), scenario.stop().row());
+  if (scenario.sensor().empty()) {
+    scenario.mutable_random_sensors();
+  }
+  if (scenario.coverage_case() == proto::Scenario::COVERAGE_NOT_SET) {
+    scenario.set_coverage_radius_m(100);
+  }
+}
+
+std::shared_ptr<const World> MakeUavWorld(const proto::ExperimentConfig& config) {
+  const proto::Agent& agent = config.agent();
+  return std::make_shared<UavWorld>(
+      ToScenario(config.scenario()),
+      UavOptions{{agent.safe_action_mask(), agent.coverage_mask()}, {agent.sensor_geometry()}});
+}
+
+}  // namespace fresco

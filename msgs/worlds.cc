@@ -1,0 +1,103 @@
+#include "msgs/worlds.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "core/error.h"
+#include "msgs/plugin_config.h"
+#include "msgs/proto/options.pb.h"
+#include "msgs/uav_config.h"
+#include "worlds/cartpole/cartpole.h"
+
+namespace fresco {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using Config = proto::ExperimentConfig;
+
+struct WorldKind {
+  Config::WorldCase world;  // the field that has its configuration
+  std::shared_ptr<const World> (*make)(const Config&);
+  void (*complete)(Config&) = nullptr;
+  std::string (*code)(const Config&) = nullptr;  // see CodeOf
+};
+
+template <class BuiltIn>
+std::shared_ptr<const World> Make(const proto::BuiltInWorld& config) {
+  return std::make_shared<BuiltIn>(config.maximum_steps());
+}
+
+const WorldKind kWorldKinds[] = {
+    {Config::kScenario, MakeUavWorld, CompleteScenario},
+    {Config::kCartpole, [](const Config& config) { return Make<CartPole>(config.cartpole()); }},
+    {Config::kPlugin, MakePluginWorld, CompletePlugin, PluginCode},
+    {Config::kPython, MakePythonWorld, CompletePython, PythonCode},
+};
+
+const WorldKind& KindOf(const Config& config) {
+  const auto found = std::find_if(std::begin(kWorldKinds), std::end(kWorldKinds),
+                                  [&](const WorldKind& kind) { return kind.world == config.world_case(); });
+  FRESCO_CHECK(found != std::end(kWorldKinds));
+  return *found;
+}
+
+/// Throws UsageError if the agent has an option that is only for another world.
+void CheckOnlyFor(const Config& config) {
+  const std::string& world = Config::descriptor()->FindFieldByNumber(config.world_case())->name();
+  for (int i = 0; i < proto::Agent::descriptor()->field_count(); ++i) {
+    const FieldDescriptor& field = *proto::Agent::descriptor()->field(i);
+    const std::string& only_for = field.options().GetExtension(proto::only_for);
+    if (!only_for.empty() && only_for != world &&
+        config.agent().GetReflection()->GetBool(config.agent(), &field)) {
+      throw UsageError(
+          fmt::format("agent.{}: true; allowed: false, since only the world {} has this option and "
+                      "the world is {}",
+                      field.name(), only_for, world));
+    }
+  }
+}
+
+void CheckCapabilities(const Config& config, const World& world) {
+  const std::string& name = world.description().name;
+  if (config.schedule().excursion_share() > 0 && !world.has_places()) {
+    throw UsageError(
+        fmt::format("schedule.excursion_share: {} is out of range; allowed: 0, since the world {} has "
+                    "no places to set out for",
+                    config.schedule().excursion_share(), name));
+  }
+  if (config.agent().flown_return_bound() && world.description().random) {
+    throw UsageError(
+        fmt::format("agent.flown_return_bound: true; allowed: false, since in the world {} chance "
+                    "decides what an episode earns",
+                    name));
+  }
+}
+
+}  // namespace
+
+void CompleteWorld(Config& config) {
+  if (config.world_case() == Config::WORLD_NOT_SET) {
+    config.mutable_scenario();
+  }
+  if (const auto complete = KindOf(config).complete) {
+    complete(config);
+  }
+}
+
+std::string CodeOf(const Config& config) {
+  const bool has_code = config.world_case() != Config::WORLD_NOT_SET && KindOf(config).code != nullptr;
+  return has_code ? KindOf(config).code(config) : "";
+}
+
+std::shared_ptr<const World> MakeWorld(const Config& config) {
+  CheckOnlyFor(config);
+  std::shared_ptr<const World> world = KindOf(config).make(config);
+  CheckCapabilities(config, *world);
+  return world;
+}
+
+}  // namespace fresco

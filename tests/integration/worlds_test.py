@@ -1,0 +1,158 @@
+"""The promises of the README in a world with chance: CartPole, in which seeds decide where episodes begin."""
+import csv
+import json
+import math
+import os
+import signal
+import sys
+import unittest
+
+from fresco_process import FrescoTest, url, wait_until
+
+# A tiny training: episodes of 60 steps at most, evaluations of five episodes.
+CARTPOLE = """cartpole { maximum_steps: 60 }
+agent { hidden_layers: [16] double_dqn: true batch_size: 16 replay_capacity: 2000 target_update_period: 50
+  linear { initial: 5e-3 final: 1e-4 } }
+schedule { episodes: 400 inserts_per_update: 4 minimum_replay_size: 200 window: 8 updates_per_version: 20
+  versions_per_evaluation: 5 evaluation_episodes: 5 ladder { base: 0.3 exponent: 3 } }
+"""
+LONGER = ("--set", "schedule.episodes=4000")
+COLUMNS = ["utime", "run_id", "order_index", "actor_id", "seed", "transition", "ending", "position", "velocity", "angle",
+           "angular_velocity", "action", "action_name", "reward", "td_error", "next_position", "next_velocity",
+           "next_angle", "next_angular_velocity", "next_allowed_actions"]
+
+
+class Worlds(FrescoTest):
+    def setUp(self):
+        super().setUp()
+        self.config = self.folder / "cartpole.textproto"
+        self.config.write_text(CARTPOLE)
+
+    def train_cartpole(self, port, name, *arguments):
+        return self.train(port, name, *arguments, config=self.config)
+
+    def expect_same(self, summary, other):
+        for key in ("weights_crc32c", "transitions", "updates", "return", "success", "best_version", "config_hash"):
+            self.assertEqual(summary[key], other[key], key)
+
+    def test_gives_the_same_weights_with_any_number_of_actors(self):
+        one = self.train_cartpole(17661, "one", "--actors", 1)
+        four = self.train_cartpole(17661, "four", "--actors", 4)
+        self.expect_same(four, one)
+        self.assertEqual(one["episodes"], 400)
+        self.assertNotEqual(self.train_cartpole(17661, "seed-2", "--seed", 2)["weights_crc32c"], one["weights_crc32c"])
+        # All of a world without an optimum and without baselines.
+        self.assertEqual(one["world"], {"name": "cartpole", "success": "balanced",
+                                        "figures": [{"name": "return", "unit": ""}]})
+        self.assertEqual((one["score"], one["evaluation_episodes"]), (one["return"], 5))
+        self.assertEqual(one["balanced"], one["success"] == 1)
+        for key in one:
+            self.assertNotRegex(key, "aoi|optim|baseline|gap|bound|arrived")
+
+    def test_gives_the_same_weights_however_often_the_learner_is_killed(self):
+        often = (*LONGER, "--set", "run.checkpoint_interval_s=0.02")
+        undisturbed = self.train_cartpole(17662, "undisturbed", *often)
+        process = self.start("train", "--config", self.config, "--lcm-url", url(17662), "--out", self.folder / "killed",
+                             "--format", "json", *often)
+        for _ in range(3):
+            before = self.checkpoints("killed")
+            wait_until(lambda: self.checkpoints("killed") not in ([], before), "a further checkpoint")
+            os.kill(self.learner_of("killed"), signal.SIGKILL)
+            _, errors = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 1, errors)
+            self.assertIn("--resume", errors)
+            process = self.start("train", "--resume", self.folder / "killed", "--format", "json")
+        resumed = self.summary_of(process)
+        self.expect_same(resumed, undisturbed)
+        self.assertEqual(resumed["resumptions"], 3)
+        for name in ("final.network", "best.network"):
+            self.assertEqual((self.folder / "killed" / name).read_bytes(),
+                             (self.folder / "undisturbed" / name).read_bytes(), name)
+
+    def checkpoints(self, name):
+        return sorted((self.folder / name / "checkpoints").glob("*.checkpoint"))
+
+    def test_gives_the_same_weights_from_its_log_whose_rows_have_the_names_of_the_world(self):
+        live = self.train_cartpole(17663, "live", "--actors", 2, "--record")
+        log = self.folder / "live" / "traffic.lcm"
+        output, _ = self.run_fresco("retrain", log, "--strict", "--out", self.folder / "again", "--format", "json")
+        again = json.loads(output)
+        self.expect_same(again, live)
+        self.assertTrue(again["retrain"]["same_configuration"])
+        self.assertEqual((again["retrain"]["flown_again"], again["retrain"]["different_versions"]), (0, 0))
+        output, _ = self.run_fresco("retrain", log, "--set", "agent.hidden_layers=8", "--out", self.folder / "other",
+                                    "--format", "json")
+        other = json.loads(output)
+        self.assertFalse(other["retrain"]["same_configuration"])
+        self.assertEqual(other["transitions"], live["transitions"])  # the recorded experience
+        self.run_fresco("retrain", log, "--set", "cartpole.maximum_steps=50", "--out", self.folder / "no", expect=2)
+        self.check_rows(log, live)
+
+    def check_rows(self, log, live):
+        """A push for 0.02 s moves the cart by its velocity; that is CartPole-v1's Euler step."""
+        table = list(csv.DictReader(self.run_fresco("log", "export", log)[0].splitlines()))
+        self.assertEqual(list(table[0]), COLUMNS)
+        self.assertGreaterEqual(len(table), live["transitions"])
+        endings = {"none": 0, "terminal": 0, "truncated": 0}
+        for row in table:
+            self.assertEqual(row["action_name"], ("push left", "push right")[int(row["action"])])
+            self.assertEqual((row["reward"], row["next_allowed_actions"]), ("1", "0 1"))
+            for name, velocity in (("position", "velocity"), ("angle", "angular_velocity")):
+                expected = float(row[name]) + 0.02 * float(row[velocity])
+                self.assertTrue(math.isclose(float(row["next_" + name]), expected, abs_tol=1e-5), row)
+            fallen = abs(float(row["next_position"])) > 2.4 or abs(float(row["next_angle"])) > 12 * 2 * math.pi / 360
+            self.assertEqual(row["ending"] == "terminal", fallen, row)
+            self.assertEqual(row["ending"] == "truncated", not fallen and int(row["transition"]) == 59, row)
+            endings[row["ending"]] += 1
+        self.assertGreater(min(endings.values()), 0, endings)
+
+    def test_shows_its_figures_in_table_report_and_evaluation(self):
+        output, _ = self.run_fresco("train", "--config", self.config, "--lcm-url", url(17664), "--out",
+                                    self.folder / "run")
+        self.assertRegex(output, r"\n  policy +return  balanced\n  this run \(DQN\) +\d+\.\d{3}  (yes|NO|\d+(\.\d+)? %)\n")
+        page = (self.folder / "run" / "report.html").read_text()
+        shown = page.split("</style>")[1].split("<section id=\"configuration\"")[0]
+        for text in (output.split("\nlook at it")[0], shown):
+            for word in ("AoI", "optimum", "gap", "flight"):
+                self.assertNotIn(word, text)
+        self.assertIn("<th scope=\"col\">balanced</th>", page)
+        header, *rows = (self.folder / "run" / "metrics.csv").read_text().splitlines()
+        self.assertTrue(header.endswith(",balanced,return"))
+        self.assertGreater(len(rows), 3)
+        self.check_evaluation()
+
+    def check_evaluation(self):
+        def evaluate(*arguments):
+            return self.run_fresco("evaluate", "--policy", self.folder / "run", *arguments)[0]
+
+        figures = json.loads(evaluate("--episodes", 20, "--seed", 3, "--format", "json"))
+        returns = [episode["return"] for episode in figures["episodes"]]
+        self.assertEqual(len(returns), 20)
+        self.assertEqual(len({episode["seed"] for episode in figures["episodes"]}), 20)
+        for episode in figures["episodes"]:
+            self.assertEqual(episode["balanced"], episode["return"] == 60)
+        self.assertAlmostEqual(figures["return"], sum(returns) / 20, places=9)
+        self.assertAlmostEqual(figures["success"], returns.count(60) / 20, places=9)
+        self.assertEqual(json.loads(evaluate("--episodes", 20, "--seed", 3, "--format", "json")), figures)
+        other = json.loads(evaluate("--episodes", 20, "--seed", 4, "--format", "json"))
+        self.assertNotEqual(other["episodes"], figures["episodes"])
+        text = evaluate("--episodes", 20, "--seed", 3)
+        self.assertIn(f"return {sum(returns) / 20:.3f} on average over 20 episodes, {min(returns):.3f} to {max(returns):.3f}",
+                      text)
+        self.assertRegex(text, r": \d+(\.\d+)? % balanced\n")
+        self.assertIn("over 5 episodes", evaluate())  # schedule.evaluation_episodes
+
+    def test_refuses_what_only_the_uavs_world_has(self):
+        self.train_cartpole(17665, "run", "--set", "schedule.episodes=100")
+        for command in ("fly", "evaluate"):
+            _, errors = self.run_fresco(command, "--policy", "aoi", "--config", self.config, expect=2)
+            self.assertIn("\"aoi\"", errors)
+        _, errors = self.run_fresco("fly", "--policy", self.folder / "run", expect=2)
+        self.assertIn("only the UAV's world (scenario) has this; the world is cartpole", errors)
+        _, errors = self.run_fresco("train", "--set", "cartpole.maximum_steps=9", "--out", self.folder / "no", expect=2)
+        self.assertIn("is scenario", errors)
+        self.assertFalse((self.folder / "no").exists())
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())

@@ -1,0 +1,83 @@
+#include "worlds/cartpole/cartpole.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "worlds/episode.h"
+#include "worlds/numeric_environment.h"
+
+namespace fresco {
+namespace {
+
+class CartPoleEnvironment : public NumericEnvironment<4> {
+ public:
+  explicit CartPoleEnvironment(int maximum_steps) : NumericEnvironment(0.05, maximum_steps) {}
+
+ private:
+  StepResult Advance(int action, State& state) override {
+    constexpr double kForceN = 10;
+    FRESCO_CHECK(action == 0 || action == 1);
+    state = CartPole::After(state, action == 1 ? kForceN : -kForceN);
+    return {1, CartPole::HasFailed(state) ? Ending::kTerminal : Ending::kNone};
+  }
+};
+
+WorldDescription DescribeCartPole(int maximum_steps) {
+  WorldDescription description;
+  description.name = "cartpole";
+  description.state = {
+      {"position", "m"}, {"velocity", "m/s"}, {"angle", "rad"}, {"angular_velocity", "rad/s"}};
+  description.actions = {"push left", "push right"};
+  description.observation_size = 4;
+  description.longest_episode = maximum_steps;
+  description.discount = 0.99;
+  description.figures = {{"return", ""}};
+  description.success = "balanced";
+  return description;
+}
+
+}  // namespace
+
+CartPole::CartPole(int maximum_steps) : World(DescribeCartPole(maximum_steps)) {}
+
+std::unique_ptr<Environment> CartPole::NewEnvironment() const {
+  return std::make_unique<CartPoleEnvironment>(longest_episode());
+}
+
+void CartPole::Observe(std::span<const float> state, std::span<float> observation) const {
+  constexpr auto kAngle = static_cast<float>(kMaximumAngleRad);
+  constexpr std::array kUnits = {static_cast<float>(kMaximumPositionM), 2.0f, kAngle, 2.0f};
+  FRESCO_CHECK(state.size() == kUnits.size() && observation.size() == kUnits.size());
+  for (size_t field = 0; field < kUnits.size(); ++field) {
+    observation[field] = state[field] / kUnits[field];
+  }
+}
+
+bool CartPole::Succeeded(const Episode& episode) const {
+  return episode.ending == Ending::kTruncated;
+}
+
+CartPole::State CartPole::After(const State& state, double force_n) {
+  constexpr double kGravity = 9.8;  // m/s^2
+  constexpr double kPoleKg = 0.1;   // the cart has 1 kg
+  constexpr double kTotalKg = 1.1;
+  constexpr double kHalfLengthM = 0.5;  // of the pole
+  constexpr double kStepS = 0.02;
+  const auto [position, velocity, angle, angular_velocity] = state;
+  const double sine = std::sin(angle);
+  const double cosine = std::cos(angle);
+  // The cart's acceleration if the pole did not turn faster or slower.
+  const double push =
+      (force_n + kPoleKg * kHalfLengthM * angular_velocity * angular_velocity * sine) / kTotalKg;
+  const double angular_acceleration =
+      (kGravity * sine - cosine * push) / (kHalfLengthM * (4.0 / 3 - kPoleKg * cosine * cosine / kTotalKg));
+  const double acceleration = push - kPoleKg * kHalfLengthM * angular_acceleration * cosine / kTotalKg;
+  return {position + kStepS * velocity, velocity + kStepS * acceleration, angle + kStepS * angular_velocity,
+          angular_velocity + kStepS * angular_acceleration};
+}
+
+bool CartPole::HasFailed(const State& state) {
+  return std::abs(state[0]) > kMaximumPositionM || std::abs(state[2]) > kMaximumAngleRad;
+}
+
+}  // namespace fresco

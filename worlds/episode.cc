@@ -1,0 +1,98 @@
+#include "worlds/episode.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace fresco {
+
+void Episode::Clear() {
+  ending = Ending::kNone;
+  states.clear();
+  actions.clear();
+  rewards.clear();
+  next_masks.clear();
+}
+
+void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed) {
+  const size_t begin = packed.size();
+  packed.resize(begin + static_cast<size_t>(MaskSize(static_cast<int>(mask.size()))), 0);
+  for (size_t action = 0; action < mask.size(); ++action) {
+    if (mask[action] != 0) {
+      packed[begin + action / 8] = static_cast<uint8_t>(packed[begin + action / 8] | (1u << (action % 8)));
+    }
+  }
+}
+
+double Return(const Episode& episode) {
+  double sum = 0;
+  for (const float reward : episode.rewards) {
+    sum += reward;
+  }
+  return sum;
+}
+
+int64_t LongestEpisodeBytes(const World& world) {
+  const int64_t transitions = world.longest_episode();
+  const auto state_bytes = world.state_size() * static_cast<int64_t>(sizeof(float));
+  const auto transition_bytes =
+      static_cast<int64_t>(sizeof(int16_t) + sizeof(float)) + MaskSize(world.actions());
+  return static_cast<int64_t>(sizeof(Episode)) + (transitions + 1) * state_bytes +
+         transitions * transition_bytes;
+}
+
+bool SameBits(const Episode& a, const Episode& b) {
+  const auto same = [](const auto& x, const auto& y) {
+    return x.size() == y.size() &&
+           (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+  };
+  return a.ending == b.ending && same(a.states, b.states) && same(a.actions, b.actions) &&
+         same(a.rewards, b.rewards) && same(a.next_masks, b.next_masks);
+}
+
+EpisodeRecorder::EpisodeRecorder(const World& world, uint64_t seed)
+    : world_(&world), environment_(world.NewEnvironment()), mask_(static_cast<size_t>(world.actions())) {
+  Begin(seed);
+}
+
+void EpisodeRecorder::Begin(uint64_t seed) {
+  episode_.Clear();
+  episode_.seed = seed;
+  environment_->Reset(seed);
+  AddState();
+}
+
+void EpisodeRecorder::AddState() {
+  const auto size = static_cast<size_t>(world_->state_size());
+  episode_.states.resize(episode_.states.size() + size);
+  environment_->WriteState(std::span(episode_.states).last(size));
+  environment_->WriteMask(mask_);
+  FRESCO_CHECK(std::find(mask_.begin(), mask_.end(), 1) != mask_.end());  // the world forbids every action
+}
+
+void EpisodeRecorder::Step(int action) {
+  const StepResult result = environment_->Step(action);
+  episode_.actions.push_back(static_cast<int16_t>(action));
+  episode_.rewards.push_back(static_cast<float>(result.reward));
+  AddState();
+  AppendMask(mask_, episode_.next_masks);
+  episode_.ending = result.ending;
+}
+
+bool FlyActions(const World& world, uint64_t seed, std::span<const int16_t> actions, Episode& episode) {
+  EpisodeRecorder recorder(world, seed);
+  for (const int16_t action : actions) {
+    if (action < 0 || action >= world.actions() || recorder.mask()[static_cast<size_t>(action)] == 0) {
+      return false;
+    }
+    recorder.Step(action);
+    if (recorder.ended()) {
+      episode = recorder.Release();
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace fresco

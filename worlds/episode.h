@@ -1,0 +1,89 @@
+// The record of one episode, in any world, and the one loop that records it. Everything that acts (the
+// actor's flyer, baselines, the planner, the learner's check) records in this way. Deterministic; no I/O.
+// Only one thread at a time may use an object.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "worlds/world.h"
+
+namespace fresco {
+
+/// Consecutive transitions of one episode; usually all of them. Transition i takes actions[i] in state i,
+/// earns rewards[i] and leads to state i + 1.
+struct Episode {
+  uint64_t seed = 0;                ///< decides where the episode begins
+  Ending ending = Ending::kNone;    ///< after the last transition
+  std::vector<float> states;        ///< [(transitions + 1) x the world's state_size]
+  std::vector<int16_t> actions;     ///< [transitions]
+  std::vector<float> rewards;       ///< [transitions]
+  std::vector<uint8_t> next_masks;  ///< [transitions x MaskSize]: the actions allowed in the next state
+
+  int transitions() const { return static_cast<int>(actions.size()); }
+  /// State i, 0 to transitions().
+  std::span<const float> state(size_t i) const {
+    const size_t size = states.size() / (actions.size() + 1);
+    return std::span(states).subspan(i * size, size);
+  }
+  void Clear();
+};
+
+/// Bytes of a mask over so many actions: bit a % 8 of byte a / 8 is 1 if action a is allowed.
+inline int MaskSize(int actions) {
+  return (actions + 7) / 8;
+}
+
+/// Appends a mask with one byte for each action as bits, filled up to a byte.
+void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
+
+/// The sum of the rewards, without discount, added in their order.
+double Return(const Episode& episode);
+
+/// The memory of the longest episode of the world, the object itself included, bytes.
+int64_t LongestEpisodeBytes(const World& world);
+
+/// Whether what happened in two episodes is the same to the bit, whatever their seeds.
+bool SameBits(const Episode& a, const Episode& b);
+
+/// An environment that records what is done in it.
+class EpisodeRecorder {
+ public:
+  /// Makes an environment and begins the episode that the seed determines. `world` must outlive the object.
+  EpisodeRecorder(const World& world, uint64_t seed);
+
+  /// Begins another episode in the same environment.
+  void Begin(uint64_t seed);
+
+  const Environment& environment() const { return *environment_; }
+  /// The present state.
+  std::span<const float> state() const {
+    return std::span(episode_.states).last(static_cast<size_t>(world_->state_size()));
+  }
+  /// The actions that are allowed now, one byte each.
+  const std::vector<uint8_t>& mask() const { return mask_; }
+  const Episode& episode() const { return episode_; }
+  bool ended() const { return episode_.ending != Ending::kNone; }
+  /// Moves the episode out; afterwards only Begin and the destructor may be called.
+  Episode Release() { return std::move(episode_); }
+
+  /// Takes an action. CHECKs as Environment::Step does; the action may be one that the mask forbids.
+  void Step(int action);
+
+ private:
+  void AddState();
+
+  const World* world_;
+  std::unique_ptr<Environment> environment_;
+  std::vector<uint8_t> mask_;
+  Episode episode_;
+};
+
+/// Takes `actions` in the episode of the seed until it ends, and ignores the rest of them. Returns false if
+/// an action is not allowed, or if the episode has not ended after the last; `episode` is then unspecified.
+bool FlyActions(const World& world, uint64_t seed, std::span<const int16_t> actions, Episode& episode);
+
+}  // namespace fresco
