@@ -11,6 +11,7 @@
 #include "msgs/plugin_config.h"
 #include "msgs/proto/options.pb.h"
 #include "msgs/uav_config.h"
+#include "worlds/acrobot/acrobot.h"
 #include "worlds/cartpole/cartpole.h"
 
 namespace fresco {
@@ -34,6 +35,7 @@ std::shared_ptr<const World> Make(const proto::BuiltInWorld& config) {
 const WorldKind kWorldKinds[] = {
     {Config::kScenario, MakeUavWorld, CompleteScenario},
     {Config::kCartpole, [](const Config& config) { return Make<CartPole>(config.cartpole()); }},
+    {Config::kAcrobot, [](const Config& config) { return Make<Acrobot>(config.acrobot()); }},
     {Config::kPlugin, MakePluginWorld, CompletePlugin, PluginCode},
     {Config::kPython, MakePythonWorld, CompletePython, PythonCode},
 };

@@ -10,6 +10,7 @@
 
 #include "tests/worlds/golden_text.h"
 #include "tests/worlds/play.h"
+#include "worlds/acrobot/acrobot.h"
 #include "worlds/cartpole/cartpole.h"
 
 namespace fresco {
@@ -64,6 +65,12 @@ void ExpectGoldenEpisode(const std::string& name, const World& world, uint64_t s
 
 TEST(GoldenWorlds, CartPoleOfRandomPushesFalls) {
   ExpectGoldenEpisode("cartpole", CartPole(500), 1, RandomActions(1, 2));
+}
+
+TEST(GoldenWorlds, AcrobotSwingsUp) {
+  // The torque turns the second link against the swing of the first.
+  ExpectGoldenEpisode("acrobot", Acrobot(500), 1,
+                      [](std::span<const float> state) { return state[2] > 0 ? 0 : 2; });
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+#include "worlds/acrobot/acrobot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "worlds/episode.h"
+#include "worlds/numeric_environment.h"
+
+namespace fresco {
+namespace {
+
+class AcrobotEnvironment : public NumericEnvironment<4> {
+ public:
+  explicit AcrobotEnvironment(int maximum_steps) : NumericEnvironment(0.1, maximum_steps) {}
+
+ private:
+  StepResult Advance(int action, State& state) override {
+    FRESCO_CHECK(action >= 0 && action <= 2);
+    state = Acrobot::After(state, action - 1);
+    const bool up = Acrobot::IsUp(state);
+    return {up ? 0.0 : -1.0, up ? Ending::kTerminal : Ending::kNone};
+  }
+};
+
+WorldDescription DescribeAcrobot(int maximum_steps) {
+  WorldDescription description;
+  description.name = "acrobot";
+  description.state = {{"angle_1", "rad"},
+                       {"angle_2", "rad"},
+                       {"angular_velocity_1", "rad/s"},
+                       {"angular_velocity_2", "rad/s"}};
+  description.actions = {"torque -1", "no torque", "torque +1"};
+  description.observation_size = 6;
+  description.longest_episode = maximum_steps;
+  description.discount = 0.99;
+  description.figures = {{"return", ""}};
+  description.success = "swung_up";
+  return description;
+}
+
+// The derivative of the state. The names d1, d2, phi1 and phi2 are the book's.
+Acrobot::State AcrobotRates(const Acrobot::State& state, double torque_nm) {
+  // Both links are alike.
+  constexpr double kMassKg = 1;
+  constexpr double kLengthM = 1;
+  constexpr double kCentreM = 0.5;  // of mass, from the upper end
+  constexpr double kInertia = 1;    // kg m^2
+  constexpr double kGravity = 9.8;  // m/s^2
+  constexpr double kCoupling = kMassKg * kLengthM * kCentreM;
+  const auto [angle1, angle2, velocity1, velocity2] = state;
+  const double sine2 = std::sin(angle2);
+  const double cosine2 = std::cos(angle2);
+  const double d1 = kMassKg * kCentreM * kCentreM + kMassKg * (kLengthM * kLengthM + kCentreM * kCentreM) +
+                    2 * kCoupling * cosine2 + 2 * kInertia;
+  const double d2 = kMassKg * kCentreM * kCentreM + kCoupling * cosine2 + kInertia;
+  const double phi2 = kMassKg * kCentreM * kGravity * std::sin(angle1 + angle2);
+  const double phi1 = -kCoupling * velocity2 * (velocity2 + 2 * velocity1) * sine2 +
+                      kMassKg * (kCentreM + kLengthM) * kGravity * std::sin(angle1) + phi2;
+  const double acceleration2 =
+      (torque_nm + d2 / d1 * phi1 - kCoupling * velocity1 * velocity1 * sine2 - phi2) /
+      (kMassKg * kCentreM * kCentreM + kInertia - d2 * d2 / d1);
+  const double acceleration1 = -(d2 * acceleration2 + phi1) / d1;
+  return {velocity1, velocity2, acceleration1, acceleration2};
+}
+
+Acrobot::State Advance(Acrobot::State state, const Acrobot::State& rates, double seconds) {
+  for (size_t field = 0; field < state.size(); ++field) {
+    state[field] += seconds * rates[field];
+  }
+  return state;
+}
+
+}  // namespace
+
+Acrobot::Acrobot(int maximum_steps) : World(DescribeAcrobot(maximum_steps)) {}
+
+std::unique_ptr<Environment> Acrobot::NewEnvironment() const {
+  return std::make_unique<AcrobotEnvironment>(longest_episode());
+}
+
+void Acrobot::Observe(std::span<const float> state, std::span<float> observation) const {
+  FRESCO_CHECK(state.size() == 4 && observation.size() == 6);
+  const double angle1 = state[0];
+  const double angle2 = state[1];
+  observation[0] = static_cast<float>(std::cos(angle1));
+  observation[1] = static_cast<float>(std::sin(angle1));
+  observation[2] = static_cast<float>(std::cos(angle2));
+  observation[3] = static_cast<float>(std::sin(angle2));
+  observation[4] = static_cast<float>(state[2] / kMaximumVelocity1);
+  observation[5] = static_cast<float>(state[3] / kMaximumVelocity2);
+}
+
+bool Acrobot::Succeeded(const Episode& episode) const {
+  return episode.ending == Ending::kTerminal;
+}
+
+Acrobot::State Acrobot::After(const State& state, double torque_nm) {
+  constexpr double kStepS = 0.2;
+  const State k1 = AcrobotRates(state, torque_nm);
+  const State k2 = AcrobotRates(Advance(state, k1, kStepS / 2), torque_nm);
+  const State k3 = AcrobotRates(Advance(state, k2, kStepS / 2), torque_nm);
+  const State k4 = AcrobotRates(Advance(state, k3, kStepS), torque_nm);
+  State next = state;
+  for (size_t field = 0; field < next.size(); ++field) {
+    next[field] += kStepS / 6 * (k1[field] + 2 * k2[field] + 2 * k3[field] + k4[field]);
+  }
+  return {std::remainder(next[0], 2 * std::numbers::pi), std::remainder(next[1], 2 * std::numbers::pi),
+          std::clamp(next[2], -kMaximumVelocity1, kMaximumVelocity1),
+          std::clamp(next[3], -kMaximumVelocity2, kMaximumVelocity2)};
+}
+
+bool Acrobot::IsUp(const State& state) {
+  return -std::cos(state[0]) - std::cos(state[0] + state[1]) > 1;
+}
+
+}  // namespace fresco
