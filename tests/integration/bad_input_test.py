@@ -21,7 +21,7 @@ CONFIGS = [
     ("scenario {}\ncartpole {}", ["textproto:2:", "cartpole", "scenario"]),
     ("cartpole { maximum_steps: 0 }", ["cartpole.maximum_steps", "0", "allowed"]),
     ("cartpole {} agent { coverage_mask: true }", ["agent.coverage_mask", "true", "allowed", "cartpole"]),
-    ("cartpole {} schedule { excursion_share: 0.5 }", ["schedule.excursion_share", "0.5", "allowed", "cartpole"]),
+    ("acrobot {} schedule { excursion_share: 0.5 }", ["schedule.excursion_share", "0.5", "allowed", "acrobot"]),
     ("cartpole {} agent { flown_return_bound: true }", ["agent.flown_return_bound", "true", "allowed", "cartpole"]),
 ]
 # What every program refuses that is on a bus.

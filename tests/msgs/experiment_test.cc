@@ -64,7 +64,7 @@ TEST(Experiment, HashIsThatOfWhatDecidesTheWeights) {
   EXPECT_EQ(Experiment::Parse("scenario { slots: 70 }", "a").hash(), hash);  // the default, said aloud
   for (const std::string text : {"scenario { slots: 71 }", "agent { discount: 0.9 }", "schedule { seed: 2 }",
                                  "schedule { ladder {} }", "scenario { sensor { x_m: 1 y_m: 2 } }",
-                                 "cartpole {}", "schedule { evaluation_episodes: 2 }"}) {
+                                 "cartpole {}", "acrobot {}", "schedule { evaluation_episodes: 2 }"}) {
     EXPECT_NE(Experiment::Parse(text, "a").hash(), hash) << text;
   }
 }

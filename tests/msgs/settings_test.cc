@@ -103,7 +103,7 @@ TEST(Settings, NameAnUnknownFieldAndTheKnownOnes) {
   EXPECT_THAT(ErrorOfSetting("agent.bach_size=3"),
               AllOf(HasSubstr("--set agent.bach_size"), HasSubstr("batch_size")));
   EXPECT_THAT(ErrorOfSetting("nothing=3"),
-              AllOf(HasSubstr("nothing"), HasSubstr(" has: scenario, cartpole, "),
+              AllOf(HasSubstr("nothing"), HasSubstr(" has: scenario, cartpole, acrobot, "),
                     HasSubstr(", agent, schedule, run")));
   EXPECT_THAT(ErrorOfSetting("agent..x=3"), HasSubstr("--set agent..x"));
   EXPECT_THAT(ErrorOfSetting("schedule.seed.x=3"), HasSubstr("--set schedule.seed.x"));
