@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <vector>
 
 #include "core/clock.h"
 #include "core/command_line.h"
@@ -27,13 +26,7 @@ Episode PlayAtRandom(const World& world, uint64_t seed) {
   RandomStream stream(seed, RandomPurpose::kTest, 0, 0);
   EpisodeRecorder recorder(world, seed);
   while (!recorder.ended() && !StopSignal::Requested()) {
-    std::vector<int> allowed;
-    for (int action = 0; action < world.actions(); ++action) {
-      if (recorder.mask()[static_cast<size_t>(action)] != 0) {
-        allowed.push_back(action);
-      }
-    }
-    recorder.Step(allowed[stream.NextBelow(static_cast<uint32_t>(allowed.size()))]);
+    recorder.Step(RandomAllowedAction(recorder.mask(), stream));
   }
   return recorder.Release();
 }

@@ -7,19 +7,6 @@
 #include "core/memory.h"
 
 namespace fresco {
-namespace {
-
-/// The `number`-th allowed action, counted from 0.
-int AllowedAction(const std::vector<uint8_t>& mask, uint32_t number) {
-  for (size_t action = 0; action < mask.size(); ++action) {
-    if (mask[action] != 0 && number-- == 0) {
-      return static_cast<int>(action);
-    }
-  }
-  FRESCO_CHECK(false);
-}
-
-}  // namespace
 
 Flyer::Flyer(const Experiment& experiment, int capacity)
     : experiment_(experiment),
@@ -151,8 +138,7 @@ std::optional<int> Flyer::Explore(Flight& flight, int column) const {
       return std::nullopt;
     }
     if (excursion_share_ == 0 || stream.NextUniform() >= excursion_share_) {
-      const auto allowed = static_cast<uint32_t>(std::count(mask.begin(), mask.end(), 1));
-      return AllowedAction(mask, stream.NextBelow(allowed));
+      return RandomAllowedAction(mask, stream);
     }
     flight.place = world.DrawPlace(stream);
   }

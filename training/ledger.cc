@@ -5,6 +5,7 @@
 #include "core/error.h"
 
 namespace fresco {
+
 int64_t Ledger::BytesFor(const World& world, int64_t orders) {
   return orders * (static_cast<int64_t>(sizeof(Entry)) + EpisodeAssembly::BytesFor(world));
 }

@@ -33,6 +33,17 @@ double Return(const Episode& episode) {
   return sum;
 }
 
+int RandomAllowedAction(std::span<const uint8_t> mask, RandomStream& stream) {
+  const auto allowed = static_cast<uint32_t>(std::count(mask.begin(), mask.end(), 1));
+  FRESCO_CHECK(allowed > 0);
+  uint32_t number = stream.NextBelow(allowed);
+  size_t action = 0;
+  while (mask[action] != 1 || number-- != 0) {
+    ++action;
+  }
+  return static_cast<int>(action);
+}
+
 int64_t LongestEpisodeBytes(const World& world) {
   const int64_t transitions = world.longest_episode();
   const auto state_bytes = world.state_size() * static_cast<int64_t>(sizeof(float));

@@ -43,6 +43,10 @@ void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
 /// The sum of the rewards, without discount, added in their order.
 double Return(const Episode& episode);
 
+/// Draws one of the allowed actions, all alike; `mask` has 1 or 0 for each action. CHECKs that one is
+/// allowed.
+int RandomAllowedAction(std::span<const uint8_t> mask, RandomStream& stream);
+
 /// The memory of the longest episode of the world, the object itself included, bytes.
 int64_t LongestEpisodeBytes(const World& world);
 

@@ -27,13 +27,7 @@ Episode PlayAtRandom(const World& world, uint64_t seed) {
   RandomStream stream(seed, RandomPurpose::kTest, 0, 0);
   EpisodeRecorder recorder(world, seed);
   while (!recorder.ended()) {
-    std::vector<int> allowed;
-    for (int action = 0; action < world.actions(); ++action) {
-      if (recorder.mask()[static_cast<size_t>(action)] != 0) {
-        allowed.push_back(action);
-      }
-    }
-    recorder.Step(allowed[stream.NextBelow(static_cast<uint32_t>(allowed.size()))]);
+    recorder.Step(RandomAllowedAction(recorder.mask(), stream));
   }
   return recorder.Release();
 }
@@ -65,7 +59,8 @@ TEST(PythonWorld, StepsAsTheBuiltInCartPole) {
     EXPECT_EQ(episode.ending, Ending::kTerminal);
     for (size_t i = 0; i < episode.actions.size(); ++i, ++steps) {
       const auto before = episode.state(i);
-      const CartPole::State next = CartPole::After({before[0], before[1], before[2], before[3]}, episode.actions[i] == 1 ? 10.0 : -10.0);
+      const CartPole::State next = CartPole::After({before[0], before[1], before[2], before[3]},
+                                                   episode.actions[i] == 1 ? 10.0 : -10.0);
       for (size_t field = 0; field < 4; ++field) {
         EXPECT_NEAR(episode.state(i + 1)[field], next[field], 1e-6);
       }
@@ -98,7 +93,8 @@ TEST(PythonWorldRefused, IfTheObjectCantBeMade) {
       {"faulty:WithFewNames", "observation_names has 1 names for 2 values"},
   };
   for (const auto& [object, problem] : faults) {
-    EXPECT_THAT(ErrorOf([&object = object] { DescribePlugin(Python(object)); }), HasSubstr(problem)) << object;
+    EXPECT_THAT(ErrorOf([&object = object] { DescribePlugin(Python(object)); }), HasSubstr(problem))
+        << object;
   }
 }
 
@@ -113,14 +109,16 @@ TEST(PythonWorldFails, WithTheCallAndPythonsReasonInTheError) {
       {"faulty:ReturnsFour", "step() has to return (observation, reward, terminated, truncated, info)"},
   };
   for (const auto& [object, problem] : faults) {
-    EXPECT_THAT(ErrorOf([&object = object] { PlayPython(Python(object)); }, ErrorKind::kPlugin), HasSubstr(problem))
+    EXPECT_THAT(ErrorOf([&object = object] { PlayPython(Python(object)); }, ErrorKind::kPlugin),
+                HasSubstr(problem))
         << object;
   }
 }
 
 TEST(PythonWorldEndsTheProcess, IfItSleeps) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  EXPECT_EXIT(PlayPython(Python("faulty:Sleeps", 1)), ::testing::ExitedWithCode(static_cast<int>(ErrorKind::kPlugin)),
+  EXPECT_EXIT(PlayPython(Python("faulty:Sleeps", 1)),
+              ::testing::ExitedWithCode(static_cast<int>(ErrorKind::kPlugin)),
               "python_world.so did not return in time in step\\(\\)");
 }
 
