@@ -30,7 +30,7 @@ LearnerProcess::LearnerProcess(const Experiment& experiment, Bus& bus, LearnerOp
       options_(std::move(options)),
       bus_(&bus),
       node_(experiment_, options_.run_id, bus, ChannelsWithPrefix(experiment.run().channel_prefix())),
-      trainer_(experiment_, Output()),
+      trainer_(experiment_, Output(), LearnerThreads(experiment.run())),
       folder_(options_.folder, experiment_, options_.use) {}
 
 bool LearnerProcess::Run() {
@@ -235,7 +235,7 @@ MemoryNeed LearnerMemory(const Experiment& experiment) {
                 CheckpointBytes(0, 0, CheckpointedEpisodeBytes(world, agent.replay_capacity()))},
            {"agent.batch_size", "a batch and the units' outputs for it",
             MiniBatch::BytesFor(shape.inputs(), shape.outputs(), agent.batch_size()) +
-                Dqn::BatchBytes(shape, agent.batch_size())},
+                Dqn::BatchBytes(shape, agent.batch_size(), LearnerThreads(run))},
            {"agent.hidden_layers", "the networks, Adam's moments and their checkpoint",
             Dqn::ParameterBytes(shape) + kStored * network + checkpoint},
            {"schedule.window", "the versions of the networks that orders in flight can name",

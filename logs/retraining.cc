@@ -16,7 +16,7 @@ Retraining::Retraining(const Experiment& experiment, LoggedEpisodes& episodes, U
       use_(use),
       strict_(strict),
       flyer_(experiment, static_cast<int>(MaximumOrdersInFlight(experiment.schedule()))),
-      trainer_(experiment, Output(std::move(evaluated))) {
+      trainer_(experiment, Output(std::move(evaluated)), LearnerThreads(experiment.run())) {
   if (use == Use::kExperience) {
     const std::vector<int64_t> training = episodes.Training();
     experience_.assign(training.begin(), training.end());

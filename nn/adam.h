@@ -1,10 +1,11 @@
-// The optimiser Adam (Kingma and Ba, 2015, Algorithm 1) in single precision. Its operations have a fixed
-// order, so equal inputs give equal bits. Dqn owns one. Not thread-safe.
+// The optimiser Adam (Kingma and Ba, 2015, Algorithm 1) in single precision. Each operation is rounded by
+// itself, so equal inputs give equal bits on every processor. Dqn owns one.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "nn/arithmetic_kernels.h"
 #include "nn/mlp.h"
 
 namespace fresco {
@@ -26,9 +27,13 @@ class Adam {
     return 2 * parameter_count * static_cast<int64_t>(sizeof(Vector::Scalar));
   }
 
-  /// Makes one step: parameters -= learning_rate * m_hat / (sqrt(v_hat) + epsilon). Both spans have
-  /// parameter_count entries; CHECKs that.
-  void Step(std::span<const float> gradient, double learning_rate, std::span<float> parameters);
+  /// Begins the next step: parameters -= learning_rate * m_hat / (sqrt(v_hat) + epsilon).
+  AdamStep Begin(double learning_rate);
+
+  /// Makes the step for the parameters from `first` to before `end`. Both spans have parameter_count entries;
+  /// CHECKs that. Threads may share a step if each has parameters of its own.
+  void Step(const AdamStep& step, int64_t first, int64_t end, std::span<const float> gradient,
+            std::span<float> parameters);
 
   /// Everything that the optimiser needs to continue with the same bits.
   struct State {

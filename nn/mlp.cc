@@ -6,29 +6,39 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "nn/arithmetic.h"
 
 namespace fresco {
 namespace {
 
-// Eigen divides a product into blocks by the processor's cache sizes, and the blocks decide the order of
-// additions. Fixed sizes give the same bits on every host.
-[[maybe_unused]] const bool kCacheSizesAreFixed = [] {
-  Eigen::setCpuCacheSizes(32 * 1024, 512 * 1024, 4 * 1024 * 1024);
-  return true;
-}();
+// A workspace's columns begin at lines of the cache, but not all at lines of the same set of it.
+constexpr int kLine = 16;       // entries
+constexpr int kSetStride = 64;  // entries
 
-// A column of a product has the same bits for every width that is a multiple of this.
-constexpr int kColumnMultiple = 8;
-
-int Padded(int batch) {
-  return (batch + kColumnMultiple - 1) / kColumnMultiple * kColumnMultiple;
+int PaddedRows(int units) {
+  const int padded = (units + kLine - 1) / kLine * kLine;
+  return padded % kSetStride == 0 ? padded + kLine : padded;
 }
 
-using ConstMatrixMap = Eigen::Map<const Matrix>;
-using ConstVectorMap = Eigen::Map<const Vector>;
+// What a thread computes at a time: columns of a batch, and about so many parameters.
+constexpr int kColumnsAtOnce = 200;
+constexpr int kParametersOfPart = 4096;
+constexpr int kInputMultiple = 8;
 
-ConstMatrixMap Weights(const MlpShape& shape, int layer, const float* parameters) {
-  return {parameters + shape.weights_offset(layer), shape.layer_outputs(layer), shape.layer_inputs(layer)};
+std::vector<ParameterPart> PartsOf(const MlpShape& shape) {
+  std::vector<ParameterPart> parts;
+  for (int layer = 0; layer < shape.layers(); ++layer) {
+    const int inputs = shape.layer_inputs(layer);
+    const int outputs = shape.layer_outputs(layer);
+    const int multiples = std::max(1, kParametersOfPart / (outputs * kInputMultiple));
+    for (int input = 0; input < inputs; input += multiples * kInputMultiple) {
+      const int end = std::min(inputs, input + multiples * kInputMultiple);
+      const int64_t first = shape.weights_offset(layer) + int64_t{input} * outputs;
+      const int64_t biases = end == inputs ? 1 : 0;
+      parts.push_back({layer, input, end, first, first + (end - input + biases) * int64_t{outputs}});
+    }
+  }
+  return parts;
 }
 
 uint32_t ComputeFingerprint() {
@@ -42,7 +52,7 @@ uint32_t ComputeFingerprint() {
       workspace.input()(row, column) = static_cast<float>(stream.NextUniform());
     }
   }
-  mlp.Forward(Values(parameters), kBatch, workspace);
+  mlp.Forward(Values(parameters), {0, kBatch}, workspace);
   const Matrix& output = workspace.output();
   return Crc32c(std::span<const float>(output.data(), static_cast<size_t>(output.size())));
 }
@@ -50,6 +60,10 @@ uint32_t ComputeFingerprint() {
 }  // namespace
 
 std::span<const float> Values(const Vector& vector) {
+  return {vector.data(), static_cast<size_t>(vector.size())};
+}
+
+std::span<float> Values(Vector& vector) {
   return {vector.data(), static_cast<size_t>(vector.size())};
 }
 
@@ -74,65 +88,182 @@ Vector InitialParameters(const MlpShape& shape, uint64_t seed) {
   return parameters;
 }
 
-MlpWorkspace::MlpWorkspace(const MlpShape& shape, int batch_capacity) {
+MlpWorkspace::MlpWorkspace(const MlpShape& shape, int batch_capacity, Passes passes) {
   FRESCO_CHECK(batch_capacity >= 1);
-  for (const int size : shape.layer_sizes()) {
-    activations_.push_back(Matrix::Zero(size, Padded(batch_capacity)));
+  const int layers = shape.layers();
+  for (int layer = 0; layer <= layers; ++layer) {
+    const int units = shape.layer_sizes()[static_cast<size_t>(layer)];
+    const bool hidden = layer > 0 && layer < layers;
+    activations_.push_back(Matrix::Zero(hidden ? PaddedRows(units) : units, batch_capacity));
   }
+  if (passes == Passes::kForward) {
+    return;
+  }
+  gradients_.resize(static_cast<size_t>(layers));
+  transposed_.resize(static_cast<size_t>(layers));
+  for (int layer = 1; layer < layers; ++layer) {
+    const int64_t rows = PaddedRows(shape.layer_inputs(layer));
+    gradients_[static_cast<size_t>(layer)] = Matrix::Zero(rows, batch_capacity);
+    transposed_[static_cast<size_t>(layer)] = Matrix::Zero(rows, shape.layer_outputs(layer));
+  }
+  transposed_gradient_ = Matrix::Zero(shape.layer_inputs(layers - 1), shape.outputs());
 }
 
-int64_t MlpWorkspace::BytesFor(const MlpShape& shape, int batch_capacity, bool backward) {
-  int64_t units = 0;
-  for (const int size : shape.layer_sizes()) {
-    units += size;
+int64_t MlpWorkspace::BytesFor(const MlpShape& shape, int batch_capacity, Passes passes) {
+  const int layers = shape.layers();
+  int64_t entries = int64_t{shape.inputs() + shape.outputs()} * batch_capacity;
+  for (int layer = 1; layer < layers; ++layer) {
+    const int64_t rows = PaddedRows(shape.layer_inputs(layer));
+    entries += rows * batch_capacity;
+    if (passes == Passes::kForwardAndBackward) {
+      entries += rows * (batch_capacity + shape.layer_outputs(layer));
+    }
   }
-  return units * Padded(batch_capacity) * static_cast<int64_t>(sizeof(Matrix::Scalar)) * (backward ? 2 : 1);
+  if (passes == Passes::kForwardAndBackward) {
+    entries += int64_t{shape.layer_inputs(layers - 1)} * shape.outputs();
+  }
+  return entries * static_cast<int64_t>(sizeof(Matrix::Scalar));
 }
 
-void Mlp::Forward(std::span<const float> parameters, int batch, MlpWorkspace& workspace) const {
+Mlp::Mlp(MlpShape shape) : shape_(std::move(shape)), parts_(PartsOf(shape_)) {}
+
+void Mlp::Forward(std::span<const float> parameters, ColumnRange columns, MlpWorkspace& workspace) const {
   FRESCO_CHECK(static_cast<int64_t>(parameters.size()) == shape_.parameter_count());
-  FRESCO_CHECK(batch >= 1 && batch <= workspace.input().cols());
-  const int columns = Padded(batch);
-  for (int layer = 0; layer < shape_.layers(); ++layer) {
-    const auto below = workspace.activations_[static_cast<size_t>(layer)].leftCols(columns);
-    auto above = workspace.activations_[static_cast<size_t>(layer) + 1].leftCols(columns);
-    above.noalias() = Weights(shape_, layer, parameters.data()) * below;
-    const ConstVectorMap biases(parameters.data() + shape_.biases_offset(layer), shape_.layer_outputs(layer));
-    if (layer + 1 < shape_.layers()) {
-      above = (above.colwise() + biases).cwiseMax(0.0f);
-    } else {
-      above.colwise() += biases;
+  FRESCO_CHECK(columns.first >= 0 && columns.end <= workspace.input().cols());
+  const Arithmetic& arithmetic = CurrentArithmetic();
+  for (int column = columns.first; column < columns.end; column += kColumnsAtOnce) {
+    for (int layer = 0; layer < shape_.layers(); ++layer) {
+      const Matrix& below = workspace.activations_[static_cast<size_t>(layer)];
+      Matrix& above = workspace.activations_[static_cast<size_t>(layer) + 1];
+      Product product;
+      product.rows = shape_.layer_outputs(layer);
+      product.columns = std::min(kColumnsAtOnce, columns.end - column);
+      product.inner = shape_.layer_inputs(layer);
+      product.a = parameters.data() + shape_.weights_offset(layer);
+      product.a_stride = product.rows;
+      product.b = below.col(column).data();
+      product.b_stride = below.rows();
+      product.bias = parameters.data() + shape_.biases_offset(layer);
+      product.result = above.col(column).data();
+      product.result_stride = above.rows();
+      product.finish = layer + 1 < shape_.layers() ? Finish::kRelu : Finish::kNothing;
+      arithmetic.multiply(product);
     }
   }
 }
 
-void Mlp::Backward(std::span<const float> parameters, int batch, const Matrix& output_gradient,
-                   MlpWorkspace& workspace, std::span<float> gradient) const {
-  FRESCO_CHECK(static_cast<int64_t>(gradient.size()) == shape_.parameter_count());
-  FRESCO_CHECK(output_gradient.rows() == shape_.outputs() && output_gradient.cols() >= batch);
-  auto& gradients = workspace.gradients_;
-  if (gradients.empty()) {
-    for (const Matrix& activation : workspace.activations_) {
-      gradients.push_back(Matrix::Zero(activation.rows(), activation.cols()));
+void Mlp::Transpose(std::span<const float> parameters, const ParameterPart& part,
+                    MlpWorkspace& workspace) const {
+  if (part.layer == 0) {
+    return;  // nobody needs the gradient of the network's input
+  }
+  const int outputs = shape_.layer_outputs(part.layer);
+  const float* weights = parameters.data() + shape_.weights_offset(part.layer);
+  Matrix& transposed = workspace.transposed_[static_cast<size_t>(part.layer)];
+  for (int output = 0; output < outputs; ++output) {
+    float* to = transposed.col(output).data();
+    for (int input = part.first_input; input < part.end_input; ++input) {
+      to[input] = weights[int64_t{input} * outputs + output];
     }
   }
-  gradients.back().leftCols(batch) = output_gradient.leftCols(batch);
-  for (int layer = shape_.layers() - 1; layer >= 0; --layer) {
-    const auto above = gradients[static_cast<size_t>(layer) + 1].leftCols(batch);
-    const auto below = workspace.activations_[static_cast<size_t>(layer)].leftCols(batch);
-    Eigen::Map<Matrix> weights_gradient(gradient.data() + shape_.weights_offset(layer),
-                                        shape_.layer_outputs(layer), shape_.layer_inputs(layer));
-    Eigen::Map<Vector> biases_gradient(gradient.data() + shape_.biases_offset(layer),
-                                       shape_.layer_outputs(layer));
-    weights_gradient.noalias() = above * below.transpose();
-    biases_gradient = above.col(0);
-    for (int column = 1; column < batch; ++column) {
-      biases_gradient += above.col(column);  // one by one: the order of additions is fixed
+}
+
+void Mlp::BackwardColumns(const OutputGradient& output_gradient, ColumnRange columns,
+                          MlpWorkspace& workspace) const {
+  const int last = shape_.layers() - 1;
+  if (last == 0) {
+    return;
+  }
+  const int units = shape_.layer_inputs(last);
+  const Matrix& transposed = workspace.transposed_[static_cast<size_t>(last)];
+  for (int column = columns.first; column < columns.end; ++column) {
+    const float value = output_gradient.values[static_cast<size_t>(column)];
+    const float* __restrict weights =
+        transposed.col(output_gradient.units[static_cast<size_t>(column)]).data();
+    const float* __restrict below = workspace.activations_[static_cast<size_t>(last)].col(column).data();
+    float* __restrict gradient = workspace.gradients_[static_cast<size_t>(last)].col(column).data();
+    for (int unit = 0; unit < units; ++unit) {
+      gradient[unit] = below[unit] > 0.0f ? weights[unit] * value : 0.0f;
     }
-    if (layer > 0) {
-      auto next = gradients[static_cast<size_t>(layer)].leftCols(batch);
-      next.noalias() = Weights(shape_, layer, parameters.data()).transpose() * above;
-      next = (below.array() > 0.0f).select(next, 0.0f);
+  }
+  const Arithmetic& arithmetic = CurrentArithmetic();
+  for (int column = columns.first; column < columns.end; column += kColumnsAtOnce) {
+    for (int layer = last - 1; layer > 0; --layer) {
+      const Matrix& weights = workspace.transposed_[static_cast<size_t>(layer)];
+      const Matrix& above = workspace.gradients_[static_cast<size_t>(layer) + 1];
+      const Matrix& activations = workspace.activations_[static_cast<size_t>(layer)];
+      Matrix& below = workspace.gradients_[static_cast<size_t>(layer)];
+      Product product;
+      product.rows = shape_.layer_inputs(layer);
+      product.columns = std::min(kColumnsAtOnce, columns.end - column);
+      product.inner = shape_.layer_outputs(layer);
+      product.a = weights.data();
+      product.a_stride = weights.rows();
+      product.b = above.col(column).data();
+      product.b_stride = above.rows();
+      product.result = below.col(column).data();
+      product.result_stride = below.rows();
+      product.finish = Finish::kGate;
+      product.gate = activations.col(column).data();
+      product.gate_stride = activations.rows();
+      arithmetic.multiply(product);
+    }
+  }
+}
+
+void Mlp::BackwardPart(const OutputGradient& output_gradient, int batch, const ParameterPart& part,
+                       MlpWorkspace& workspace, std::span<float> gradient) const {
+  FRESCO_CHECK(static_cast<int64_t>(gradient.size()) == shape_.parameter_count());
+  if (part.layer == shape_.layers() - 1) {
+    LastLayerGradient(output_gradient, batch, part, workspace, gradient);
+    return;
+  }
+  const Arithmetic& arithmetic = CurrentArithmetic();
+  const Matrix& above = workspace.gradients_[static_cast<size_t>(part.layer) + 1];
+  const Matrix& below = workspace.activations_[static_cast<size_t>(part.layer)];
+  const int outputs = shape_.layer_outputs(part.layer);
+  Product product;
+  product.rows = outputs;
+  product.columns = part.end_input - part.first_input;
+  product.inner = batch;
+  product.a = above.data();
+  product.a_stride = above.rows();
+  product.b = below.data() + part.first_input;
+  product.b_row_stride = below.rows();
+  product.b_stride = 1;
+  product.result = gradient.data() + part.first;
+  product.result_stride = outputs;
+  arithmetic.multiply(product);
+  if (part.end_input == shape_.layer_inputs(part.layer)) {
+    float* biases = gradient.data() + shape_.biases_offset(part.layer);
+    std::fill_n(biases, outputs, 0.0f);
+    for (int column = 0; column < batch; ++column) {
+      arithmetic.add_scaled(outputs, 1.0f, above.col(column).data(), biases);
+    }
+  }
+}
+
+/// The gradient of the last layer. Only one output of each column has any, so the sums have few terms.
+void Mlp::LastLayerGradient(const OutputGradient& output_gradient, int batch, const ParameterPart& part,
+                            MlpWorkspace& workspace, std::span<float> gradient) const {
+  const Arithmetic& arithmetic = CurrentArithmetic();
+  const Matrix& below = workspace.activations_[static_cast<size_t>(part.layer)];
+  const int outputs = shape_.outputs();
+  const int inputs = part.end_input - part.first_input;
+  auto transposed = workspace.transposed_gradient_.middleRows(part.first_input, inputs);
+  transposed.setZero();
+  for (int column = 0; column < batch; ++column) {
+    arithmetic.add_scaled(inputs, output_gradient.values[static_cast<size_t>(column)],
+                          below.col(column).data() + part.first_input,
+                          transposed.col(output_gradient.units[static_cast<size_t>(column)]).data());
+  }
+  Eigen::Map<Matrix>(gradient.data() + part.first, outputs, inputs) = transposed.transpose();
+  if (part.end_input == shape_.layer_inputs(part.layer)) {
+    float* biases = gradient.data() + shape_.biases_offset(part.layer);
+    std::fill_n(biases, outputs, 0.0f);
+    for (int column = 0; column < batch; ++column) {
+      const auto i = static_cast<size_t>(column);
+      biases[output_gradient.units[i]] += output_gradient.values[i];
     }
   }
 }

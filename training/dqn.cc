@@ -5,6 +5,37 @@
 #include "core/error.h"
 
 namespace fresco {
+namespace {
+
+// The arithmetic computes so many columns together.
+constexpr int kColumnMultiple = 8;
+
+/// How many jobs the columns of a batch are divided into. Two for each thread, if there is more than one: so
+/// a thread that was interrupted does less.
+int ColumnJobs(int batch_size, int threads) {
+  const int multiples = (batch_size + kColumnMultiple - 1) / kColumnMultiple;
+  return threads == 1 ? 1 : std::min(multiples, 2 * threads);
+}
+
+/// The columns of a job: all jobs have about as many.
+ColumnRange ColumnsOfJob(int job, int jobs, int batch_size) {
+  const int multiples = (batch_size + kColumnMultiple - 1) / kColumnMultiple;
+  const auto begin_of = [&](int i) { return std::min(batch_size, i * multiples / jobs * kColumnMultiple); };
+  return {begin_of(job), begin_of(job + 1)};
+}
+
+int MostColumnsOfJob(int batch_size, int threads) {
+  const int jobs = ColumnJobs(batch_size, threads);
+  int most = 0;
+  for (int job = 0; job < jobs; ++job) {
+    const ColumnRange columns = ColumnsOfJob(job, jobs, batch_size);
+    most = std::max(most, columns.end - columns.first);
+  }
+  return most;
+}
+
+}  // namespace
+
 std::optional<int> BestAllowedAction(const Matrix& values, int column, std::span<const uint8_t> mask,
                                      int first, int end) {
   std::optional<int> best;
@@ -22,18 +53,30 @@ int GreedyAction(const Matrix& values, int column, std::span<const uint8_t> mask
   return *best;
 }
 
-Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options)
+Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options, int threads)
     : mlp_(shape),
       options_(options),
       current_(initial),
       target_(initial),
       adam_(shape.parameter_count(), options.adam),
-      workspace_(shape, options.batch_size),
-      next_workspace_(shape, options.batch_size),
-      targets_(options.batch_size),
-      output_gradient_(shape.outputs(), options.batch_size),
+      workspace_(shape, options.batch_size, MlpWorkspace::Passes::kForwardAndBackward),
+      targets_(static_cast<size_t>(options.batch_size)),
+      errors_(targets_.size()),
+      output_gradients_(targets_.size()),
       gradient_(shape.parameter_count()),
-      choices_(static_cast<size_t>(options.batch_size)) {}
+      choices_(targets_.size()),
+      team_(threads) {
+  for (int thread = 0; thread < threads; ++thread) {
+    next_workspaces_.emplace_back(shape, MostColumnsOfJob(options.batch_size, threads));
+  }
+  TransposeAll();
+}
+
+void Dqn::TransposeAll() {
+  for (const ParameterPart& part : mlp_.parts()) {
+    mlp_.Transpose(Values(current_), part, workspace_);
+  }
+}
 
 int64_t Dqn::ParameterBytes(const MlpShape& shape) {
   constexpr int64_t kVectors = 3;  // current, target, gradient
@@ -41,10 +84,13 @@ int64_t Dqn::ParameterBytes(const MlpShape& shape) {
          Adam::BytesFor(shape.parameter_count());
 }
 
-int64_t Dqn::BatchBytes(const MlpShape& shape, int batch_size) {
-  const auto of_column = static_cast<int64_t>(sizeof(Vector::Scalar)) * (1 + shape.outputs()) +
-                         static_cast<int64_t>(sizeof(decltype(choices_)::value_type));
-  return MlpWorkspace::BytesFor(shape, batch_size, true) + MlpWorkspace::BytesFor(shape, batch_size, false) +
+int64_t Dqn::BatchBytes(const MlpShape& shape, int batch_size, int threads) {
+  const auto of_column = static_cast<int64_t>(
+      sizeof(decltype(targets_)::value_type) + sizeof(decltype(errors_)::value_type) +
+      sizeof(decltype(output_gradients_)::value_type) + sizeof(decltype(choices_)::value_type));
+  return MlpWorkspace::BytesFor(shape, batch_size, MlpWorkspace::Passes::kForwardAndBackward) +
+         threads * MlpWorkspace::BytesFor(shape, MostColumnsOfJob(batch_size, threads),
+                                          MlpWorkspace::Passes::kForward) +
          batch_size * of_column;
 }
 
@@ -53,47 +99,67 @@ void Dqn::Restore(const Vector& current, const Vector& target, const Adam::State
   current_ = current;
   target_ = target;
   adam_.Restore(adam);
+  TransposeAll();
 }
 
 double Dqn::Update(const MiniBatch& batch, double learning_rate) {
   FRESCO_CHECK(batch.size() == options_.batch_size);
   const int size = batch.size();
-  ComputeTargets(batch);
-  workspace_.input().leftCols(size) = batch.observations;
-  mlp_.Forward(Values(current_), size, workspace_);
-  output_gradient_.setZero();
+  const int jobs = ColumnJobs(size, team_.threads());
+  team_.Run(jobs, [&](int job, int thread) {
+    ComputeColumns(batch, ColumnsOfJob(job, jobs, size), next_workspaces_[static_cast<size_t>(thread)]);
+  });
+  const OutputGradient output_gradient{batch.actions, output_gradients_};
+  const AdamStep step = adam_.Begin(learning_rate);
+  team_.Run(static_cast<int>(mlp_.parts().size()), [&](int job, int) {
+    const ParameterPart& part = mlp_.parts()[static_cast<size_t>(job)];
+    mlp_.BackwardPart(output_gradient, size, part, workspace_, Values(gradient_));
+    adam_.Step(step, part.first, part.end, Values(gradient_), Values(current_));
+    mlp_.Transpose(Values(current_), part, workspace_);
+  });
   double loss = 0;
-  for (int column = 0; column < size; ++column) {
-    const int action = batch.actions[static_cast<size_t>(column)];
-    const float error = workspace_.output()(action, column) - targets_(column);
-    output_gradient_(action, column) = 2.0f * error / static_cast<float>(size);
+  for (const float error : errors_) {
     loss += static_cast<double>(error) * static_cast<double>(error);
   }
-  mlp_.Backward(Values(current_), size, output_gradient_, workspace_,
-                {gradient_.data(), static_cast<size_t>(gradient_.size())});
-  adam_.Step(Values(gradient_), learning_rate, {current_.data(), static_cast<size_t>(current_.size())});
   return loss / size;
 }
 
-void Dqn::ComputeTargets(const MiniBatch& batch) {
-  const int size = batch.size();
-  next_workspace_.input().leftCols(size) = batch.next_observations;
+/// What an update does with columns of the batch up to the gradients of the hidden units. Every column is
+/// computed by itself.
+void Dqn::ComputeColumns(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace) {
+  ComputeTargets(batch, columns, next_workspace);
+  const int count = columns.end - columns.first;
+  workspace_.input().middleCols(columns.first, count) = batch.observations.middleCols(columns.first, count);
+  mlp_.Forward(Values(current_), columns, workspace_);
+  for (int column = columns.first; column < columns.end; ++column) {
+    const auto i = static_cast<size_t>(column);
+    errors_[i] = workspace_.output()(batch.actions[i], column) - targets_[i];
+    output_gradients_[i] = 2.0f * errors_[i] / static_cast<float>(batch.size());
+  }
+  mlp_.BackwardColumns({batch.actions, output_gradients_}, columns, workspace_);
+}
+
+void Dqn::ComputeTargets(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace) {
+  const ColumnRange next_columns{0, columns.end - columns.first};
+  next_workspace.input().leftCols(next_columns.end) =
+      batch.next_observations.middleCols(columns.first, next_columns.end);
   if (options_.double_dqn) {
-    mlp_.Forward(Values(current_), size, next_workspace_);
-    for (int column = 0; column < size; ++column) {
-      choices_[static_cast<size_t>(column)] =
-          GreedyAction(next_workspace_.output(), column, batch.next_mask(column));
+    mlp_.Forward(Values(current_), next_columns, next_workspace);
+    for (int column = 0; column < next_columns.end; ++column) {
+      choices_[static_cast<size_t>(columns.first + column)] =
+          GreedyAction(next_workspace.output(), column, batch.next_mask(columns.first + column));
     }
   }
-  mlp_.Forward(Values(target_), size, next_workspace_);
-  for (int column = 0; column < size; ++column) {
-    const auto i = static_cast<size_t>(column);
+  mlp_.Forward(Values(target_), next_columns, next_workspace);
+  for (int column = 0; column < next_columns.end; ++column) {
+    const int of_batch = columns.first + column;
+    const auto i = static_cast<size_t>(of_batch);
     const int choice = options_.double_dqn
                            ? choices_[i]
-                           : GreedyAction(next_workspace_.output(), column, batch.next_mask(column));
-    const float next_value = next_workspace_.output()(choice, column);
+                           : GreedyAction(next_workspace.output(), column, batch.next_mask(of_batch));
+    const float next_value = next_workspace.output()(choice, column);
     const float later = batch.terminal[i] != 0 ? 0.0f : options_.discount * next_value;
-    targets_(column) = std::max(batch.rewards[i] + later, batch.least_values[i]);
+    targets_[i] = std::max(batch.rewards[i] + later, batch.least_values[i]);
   }
 }
 

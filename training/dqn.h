@@ -1,12 +1,13 @@
 // The deep Q-network (DQN) of Algorithm 1: a current and a target network, and one gradient step for each
-// mini-batch. Does its arithmetic in a fixed order, so equal inputs give equal bits. Does not allocate after
-// construction. The trainer owns it. Not thread-safe.
+// mini-batch. Equal inputs give equal bits, whatever the number of threads. Does not allocate after
+// construction. The trainer owns it. Only one thread may call it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
 
+#include "core/thread_team.h"
 #include "nn/adam.h"
 #include "nn/mlp.h"
 #include "training/replay_memory.h"
@@ -30,13 +31,14 @@ struct DqnOptions {
 
 class Dqn {
  public:
-  /// Both networks begin as `initial`, which has shape.parameter_count() entries.
-  Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options);
+  /// Both networks begin as `initial`, which has shape.parameter_count() entries. `threads` (>= 1) share each
+  /// update; their number changes no bit.
+  Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options, int threads = 1);
 
   /// The memory of an object after its first update, bytes: for the networks, their gradient and Adam's
   /// moments, and for a batch.
   static int64_t ParameterBytes(const MlpShape& shape);
-  static int64_t BatchBytes(const MlpShape& shape, int batch_size);
+  static int64_t BatchBytes(const MlpShape& shape, int batch_size, int threads);
 
   /// Makes one step of Adam on the loss L = mean (y - Q(s, a))^2 (eq. Loss-Func) of a batch of exactly
   /// options.batch_size transitions. The target y is r if the transition is terminal; otherwise it is r plus
@@ -56,7 +58,9 @@ class Dqn {
   void Restore(const Vector& current, const Vector& target, const Adam::State& adam);
 
  private:
-  void ComputeTargets(const MiniBatch& batch);
+  void ComputeColumns(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace);
+  void ComputeTargets(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace);
+  void TransposeAll();
 
   Mlp mlp_;
   DqnOptions options_;
@@ -64,11 +68,13 @@ class Dqn {
   Vector target_;
   Adam adam_;
   MlpWorkspace workspace_;
-  MlpWorkspace next_workspace_;
-  Vector targets_;          // y
-  Matrix output_gradient_;  // [actions x batch]
+  std::vector<float> targets_;           // y, by column
+  std::vector<float> errors_;            // Q(s, a) - y, by column
+  std::vector<float> output_gradients_;  // d L / d Q(s, a), by column
   Vector gradient_;
   std::vector<int> choices_;  // actions that the current network chooses in s'; for Double DQN only
+  ThreadTeam team_;
+  std::vector<MlpWorkspace> next_workspaces_;  // for s', by thread
 };
 
 }  // namespace fresco

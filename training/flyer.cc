@@ -24,7 +24,7 @@ int64_t Flyer::BytesFor(const Experiment& experiment, int capacity, int64_t flig
   const MlpShape shape = experiment.network_shape();
   const int64_t of_flight =
       static_cast<int64_t>(sizeof(Flight)) + HeapBytes(world.actions()) + kGrowth * LongestResultBytes(world);
-  return 2 * MlpWorkspace::BytesFor(shape, capacity, false) + flights * of_flight;
+  return 2 * MlpWorkspace::BytesFor(shape, capacity, MlpWorkspace::Passes::kForward) + flights * of_flight;
 }
 
 bool Flyer::IsFlying(int64_t order_index) const {
@@ -89,7 +89,7 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
                                   {workspace.input().col(column).data(),
                                    static_cast<size_t>(experiment_.world().observation_size())});
     }
-    mlp_.Forward({parameters->data(), static_cast<size_t>(parameters->size())}, batch, workspace);
+    mlp_.Forward(Values(*parameters), {0, batch}, workspace);
   };
   forward(group.front()->current, current_workspace_);
   forward(group.front()->target, target_workspace_);

@@ -1,11 +1,21 @@
 #include "training/replay_memory.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 
 #include "core/error.h"
 
 namespace fresco {
+namespace {
+
+/// The floats whose memory so many bytes take.
+constexpr size_t FloatsFor(size_t bytes) {
+  return (bytes + sizeof(float) - 1) / sizeof(float);
+}
+
+}  // namespace
 
 MiniBatch::MiniBatch(int inputs, int action_count, int batch_size)
     : observations(inputs, batch_size),
@@ -17,16 +27,12 @@ MiniBatch::MiniBatch(int inputs, int action_count, int batch_size)
       next_masks(static_cast<size_t>(action_count) * static_cast<size_t>(batch_size)) {}
 
 ReplayMemory::ReplayMemory(int inputs, int actions, int64_t capacity)
-    : actions_(actions),
+    : inputs_(static_cast<size_t>(inputs)),
+      actions_(actions),
+      mask_size_((static_cast<size_t>(actions) + 7) / 8),
+      record_size_(2 * inputs_ + FloatsFor(sizeof(Rest)) + FloatsFor(mask_size_)),
       capacity_(capacity),
-      observations_(inputs, capacity),
-      next_observations_(inputs, capacity),
-      action_(static_cast<size_t>(capacity)),
-      reward_(static_cast<size_t>(capacity)),
-      terminal_(static_cast<size_t>(capacity)),
-      least_value_(static_cast<size_t>(capacity)),
-      mask_size_(MaskBytes(actions)),
-      masks_(mask_size_ * static_cast<size_t>(capacity)) {}
+      records_(record_size_ * static_cast<size_t>(capacity)) {}
 
 int64_t MiniBatch::BytesFor(int inputs, int action_count, int batch_size) {
   const size_t of_transition = 2 * static_cast<size_t>(inputs) * sizeof(Matrix::Scalar) +
@@ -38,49 +44,66 @@ int64_t MiniBatch::BytesFor(int inputs, int action_count, int batch_size) {
 }
 
 int64_t ReplayMemory::BytesFor(int inputs, int actions, int64_t capacity) {
-  const size_t of_transition =
-      2 * static_cast<size_t>(inputs) * sizeof(Matrix::Scalar) + sizeof(decltype(action_)::value_type) +
-      sizeof(decltype(reward_)::value_type) + sizeof(decltype(terminal_)::value_type) +
-      sizeof(decltype(least_value_)::value_type) + MaskBytes(actions) * sizeof(decltype(masks_)::value_type);
-  return capacity * static_cast<int64_t>(of_transition);
+  const ReplayMemory one(inputs, actions, 1);
+  return capacity * static_cast<int64_t>(one.record_size_ * sizeof(float));
 }
 
 void ReplayMemory::Insert(const Transition& transition) {
-  FRESCO_CHECK(static_cast<int64_t>(transition.observation.size()) == observations_.rows());
+  FRESCO_CHECK(transition.observation.size() == inputs_ && transition.next_observation.size() == inputs_);
   FRESCO_CHECK(transition.next_mask.size() == mask_size_);
-  const auto index = static_cast<size_t>(next_);
-  std::copy(transition.observation.begin(), transition.observation.end(), observations_.col(next_).data());
-  std::copy(transition.next_observation.begin(), transition.next_observation.end(),
-            next_observations_.col(next_).data());
-  action_[index] = transition.action;
-  reward_[index] = transition.reward;
-  terminal_[index] = transition.terminal ? 1 : 0;
-  least_value_[index] = transition.least_value;
-  std::copy(transition.next_mask.begin(), transition.next_mask.end(), masks_.data() + index * mask_size_);
+  float* record = Record(next_);
+  record = std::copy(transition.observation.begin(), transition.observation.end(), record);
+  record = std::copy(transition.next_observation.begin(), transition.next_observation.end(), record);
+  const Rest rest{transition.reward, transition.least_value, transition.action,
+                  static_cast<uint8_t>(transition.terminal ? 1 : 0)};
+  std::memcpy(record, &rest, sizeof(rest));
+  std::memcpy(record + FloatsFor(sizeof(rest)), transition.next_mask.data(), mask_size_);
   next_ = (next_ + 1) % capacity_;
   size_ = std::min(size_ + 1, capacity_);
 }
 
 void ReplayMemory::Sample(RandomStream& stream, MiniBatch& batch) const {
   FRESCO_CHECK(size_ >= 1);
-  for (int column = 0; column < batch.size(); ++column) {
-    Copy(stream.NextBelow(static_cast<uint32_t>(size_)), column, batch);
+  // Most of the transitions are in no cache. Asked for ahead of time, they come side by side.
+  constexpr int kAhead = 16;
+  std::array<int64_t, kAhead> coming;
+  for (int column = 0; column < batch.size() + kAhead; ++column) {
+    int64_t& index = coming[static_cast<size_t>(column % kAhead)];
+    if (column >= kAhead) {
+      Copy(index, column - kAhead, batch);
+    }
+    if (column < batch.size()) {
+      index = stream.NextBelow(static_cast<uint32_t>(size_));
+      Prefetch(index);
+    }
   }
 }
 
+void ReplayMemory::Prefetch(int64_t index) const {
+  constexpr size_t kLine = 64 / sizeof(float);
+  const float* record = Record(index);
+  for (size_t i = 0; i < record_size_; i += kLine) {
+    __builtin_prefetch(record + i);
+  }
+  __builtin_prefetch(record + record_size_ - 1);
+}
+
 void ReplayMemory::Copy(int64_t index, int column, MiniBatch& batch) const {
-  const auto from = static_cast<size_t>(index);
+  const float* record = Record(index);
+  std::copy_n(record, inputs_, batch.observations.col(column).data());
+  std::copy_n(record + inputs_, inputs_, batch.next_observations.col(column).data());
+  record += 2 * inputs_;
+  Rest rest;
+  std::memcpy(&rest, record, sizeof(rest));
   const auto to = static_cast<size_t>(column);
-  batch.observations.col(column) = observations_.col(index);
-  batch.next_observations.col(column) = next_observations_.col(index);
-  batch.actions[to] = action_[from];
-  batch.rewards[to] = reward_[from];
-  batch.terminal[to] = terminal_[from];
-  batch.least_values[to] = least_value_[from];
-  const uint8_t* mask = masks_.data() + from * mask_size_;
+  batch.actions[to] = rest.action;
+  batch.rewards[to] = rest.reward;
+  batch.terminal[to] = rest.terminal;
+  batch.least_values[to] = rest.least_value;
+  const auto* mask = reinterpret_cast<const uint8_t*>(record + FloatsFor(sizeof(rest)));
+  uint8_t* allowed = batch.next_masks.data() + to * static_cast<size_t>(actions_);
   for (int action = 0; action < actions_; ++action) {
-    const bool allowed = (mask[action / 8] >> (action % 8) & 1) != 0;
-    batch.next_masks[to * static_cast<size_t>(actions_) + static_cast<size_t>(action)] = allowed ? 1 : 0;
+    allowed[action] = mask[action / 8] >> (action % 8) & 1;
   }
 }
 

@@ -73,21 +73,29 @@ class ReplayMemory {
   void Sample(RandomStream& stream, MiniBatch& batch) const;
 
  private:
+  /// A transition as it is stored. Its parts follow each other, so that a sample takes few lines of the
+  /// cache.
+  struct Rest {
+    float reward;
+    float least_value;
+    int16_t action;
+    uint8_t terminal;
+  };
+  float* Record(int64_t index) { return records_.data() + static_cast<size_t>(index) * record_size_; }
+  const float* Record(int64_t index) const {
+    return records_.data() + static_cast<size_t>(index) * record_size_;
+  }
+  void Prefetch(int64_t index) const;
   void Copy(int64_t index, int column, MiniBatch& batch) const;
-  static size_t MaskBytes(int actions) { return (static_cast<size_t>(actions) + 7) / 8; }
 
+  size_t inputs_;
   int actions_;
+  size_t mask_size_;    // bytes
+  size_t record_size_;  // floats: s, s', Rest, the mask
   int64_t capacity_;
   int64_t size_ = 0;
   int64_t next_ = 0;
-  Matrix observations_;
-  Matrix next_observations_;
-  std::vector<int16_t> action_;
-  std::vector<float> reward_;
-  std::vector<uint8_t> terminal_;
-  std::vector<float> least_value_;
-  size_t mask_size_;
-  std::vector<uint8_t> masks_;
+  std::vector<float> records_;
 };
 
 /// Keeps the episodes of the latest transitions. A checkpoint stores these instead of the replay memory,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/thread_team.h"
 #include "training/schedules.h"
 
 namespace fresco {
@@ -25,7 +26,11 @@ void Average(double value, double& average) {
 
 }  // namespace
 
-Trainer::Trainer(const Experiment& experiment, TrainerOutput output)
+int LearnerThreads(const proto::Run& run) {
+  return run.learner_threads() > 0 ? run.learner_threads() : std::max(1, ProcessorCount() - 1);
+}
+
+Trainer::Trainer(const Experiment& experiment, TrainerOutput output, int threads)
     : experiment_(experiment),
       output_(std::move(output)),
       expected_updates_(ExpectedUpdates(experiment.schedule(), experiment.world().longest_episode())),
@@ -36,7 +41,7 @@ Trainer::Trainer(const Experiment& experiment, TrainerOutput output)
              experiment.agent().batch_size()),
       dqn_(experiment.network_shape(),
            InitialParameters(experiment.network_shape(), experiment.schedule().seed()),
-           OptionsOf(experiment.agent())),
+           OptionsOf(experiment.agent()), threads),
       observation_(static_cast<size_t>(experiment.world().observation_size())),
       next_observation_(observation_.size()),
       least_values_(static_cast<size_t>(experiment.world().longest_episode())) {}

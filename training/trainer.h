@@ -32,9 +32,13 @@ struct TrainerOutput {
   std::function<void()> updated;
 };
 
+/// The threads that share an update: run.learner_threads, or as many as that stands for on this machine.
+int LearnerThreads(const proto::Run& run);
+
 class Trainer {
  public:
-  Trainer(const Experiment& experiment, TrainerOutput output);
+  /// `threads` (>= 1) share each update; their number changes no bit.
+  Trainer(const Experiment& experiment, TrainerOutput output, int threads = 1);
 
   /// Starts a new training: hands out version 0 of both networks and the first orders. Call either Begin or
   /// Resume, and only once.

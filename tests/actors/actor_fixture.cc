@@ -71,7 +71,7 @@ void LearnerDouble::AnnounceRun(const std::function<void(run_t&)>& change) {
 
 void LearnerDouble::SendVersion(NetworkVersion version, const Vector& parameters,
                                 const std::set<int>& without) {
-  const auto values = SpanOf(parameters);
+  const auto values = Values(parameters);
   for (int chunk = 0; chunk < ChunkCount(parameters.size()); ++chunk) {
     if (!without.contains(chunk)) {
       Send(version.kind == NetworkKind::kCurrent ? channels_.weights_current : channels_.weights_target,

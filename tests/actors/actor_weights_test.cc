@@ -105,7 +105,7 @@ TEST_F(ActorWeights, ThatTookLongToArriveAreReportedWithTheirTime) {
 TEST_F(ActorWeights, OfAnotherRunAreCountedAndIgnored) {
   BeginRun();
   learner_.SendOrders({Newer(0)});
-  const std::span<const float> values = SpanOf(*target_);
+  const std::span<const float> values = Values(*target_);
   for (int chunk = 0; chunk < chunks(); ++chunk) {
     const weights_t message = WeightsChunk(values, Crc32c(values), 4, chunk);
     learner_.Send(channels_.weights_current, message, {kRunId + 1, learner_.identity().config_hash});

@@ -45,7 +45,7 @@ void Update(benchmark::State& state, bool double_dqn) {
   DqnOptions options;
   options.double_dqn = double_dqn;
   options.batch_size = kBatch;
-  Dqn dqn(shape, InitialParameters(shape, 1), options);
+  Dqn dqn(shape, InitialParameters(shape, 1), options, std::getenv("THREADS") ? atoi(std::getenv("THREADS")) : 1);
   MiniBatch batch(shape.inputs(), shape.outputs(), kBatch);
   uint32_t update = 0;
   for (auto _ : state) {

@@ -88,6 +88,7 @@ TEST_F(LearnerMemoryTest, OfTheEpisodesInTheReplayMemoryIsForetold) {
 
 TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
   constexpr int kColumns = 500;
+  constexpr int kThreads = 2;
   ExpectNear(HeapUseOf([&] { return std::make_unique<MiniBatch>(25, 45, kColumns); }),
              MiniBatch::BytesFor(25, 45, kColumns));
   MiniBatch batch(25, 45, kColumns);
@@ -97,11 +98,12 @@ TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
   std::fill(batch.next_masks.begin(), batch.next_masks.end(), uint8_t{1});
   const Vector initial = InitialParameters(kMemoryShape, 1);
   const int64_t measured = HeapUseOf([&] {
-    auto dqn = std::make_unique<Dqn>(kMemoryShape, initial, DqnOptions{.batch_size = kColumns, .adam = {}});
-    dqn->Update(batch, 1e-3);  // the gradients of the units are made by the first one
+    auto dqn = std::make_unique<Dqn>(kMemoryShape, initial, DqnOptions{.batch_size = kColumns, .adam = {}},
+                                     kThreads);
+    dqn->Update(batch, 1e-3);
     return dqn;
   });
-  ExpectNear(measured, Dqn::ParameterBytes(kMemoryShape) + Dqn::BatchBytes(kMemoryShape, kColumns));
+  ExpectNear(measured, Dqn::ParameterBytes(kMemoryShape) + Dqn::BatchBytes(kMemoryShape, kColumns, kThreads));
 }
 
 TEST_F(LearnerMemoryTest, OfOrdersInFlightIsForetoldAtMost) {

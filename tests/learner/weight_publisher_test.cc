@@ -82,7 +82,7 @@ TEST(WeightPublisher, SendsEachChunkOfANewVersionOnceInOrder) {
 TEST(WeightPublisher, SendsChunksThatMakeUpTheParametersWithTheirCrc) {
   for (const int values : {1, 307, 308, 309, 616, 1000}) {
     const auto parameters = ParametersOf(3, values);
-    const uint32_t crc = Crc32c(SpanOf(*parameters));
+    const uint32_t crc = Crc32c(Values(*parameters));
     WeightPublisher publisher;
     publisher.Offer({NetworkKind::kTarget, 3}, parameters);
     std::vector<float> joined;

@@ -20,8 +20,4 @@ std::vector<float> RandomFloats(RandomStream& stream, size_t count, double bound
 /// Writes one observation into a column of a workspace's input.
 void SetColumn(MlpWorkspace& workspace, int column, const std::vector<float>& observation);
 
-inline std::span<const float> SpanOf(const Vector& vector) {
-  return {vector.data(), static_cast<size_t>(vector.size())};
-}
-
 }  // namespace fresco

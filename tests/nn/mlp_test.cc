@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -21,8 +22,7 @@ class MlpGradient : public ::testing::TestWithParam<std::vector<int>> {
   MlpGradient()
       : mlp_(MlpShape(GetParam())),
         parameters_(InitialParameters(mlp_.shape(), 5)),
-        workspace_(mlp_.shape(), kBatch),
-        loss_gradient_(mlp_.shape().outputs(), kBatch) {
+        workspace_(mlp_.shape(), kBatch, MlpWorkspace::Passes::kForwardAndBackward) {
     RandomStream stream(7, RandomPurpose::kTest, 0, 0);
     for (int layer = 0; layer < mlp_.shape().layers(); ++layer) {
       const auto biases = RandomFloats(stream, static_cast<size_t>(mlp_.shape().layer_outputs(layer)), 0.5);
@@ -31,11 +31,11 @@ class MlpGradient : public ::testing::TestWithParam<std::vector<int>> {
     for (int column = 0; column < kBatch; ++column) {
       observations_.push_back(RandomFloats(stream, static_cast<size_t>(mlp_.shape().inputs()), 1));
       SetColumn(workspace_, column, observations_.back());
-      const auto gradient = RandomFloats(stream, static_cast<size_t>(mlp_.shape().outputs()), 1);
-      std::copy(gradient.begin(), gradient.end(), loss_gradient_.col(column).data());
+      units_.push_back(static_cast<int16_t>(stream.NextBelow(static_cast<uint32_t>(mlp_.shape().outputs()))));
     }
+    values_ = RandomFloats(stream, kBatch, 1);
     doubles_.assign(parameters_.data(), parameters_.data() + parameters_.size());
-    mlp_.Forward(SpanOf(parameters_), kBatch, workspace_);
+    mlp_.Forward(Values(parameters_), {0, kBatch}, workspace_);
   }
 
   Doubles LiteralOutputs(int column) const {
@@ -43,23 +43,38 @@ class MlpGradient : public ::testing::TestWithParam<std::vector<int>> {
     return LiteralForward(GetParam(), doubles_, Doubles(observation.begin(), observation.end()));
   }
 
-  /// A loss that is linear in the outputs, so that its gradient there is loss_gradient_.
+  /// A loss that is linear in one output of each column, so that its gradient there is values_.
   double LiteralLoss() const {
     double loss = 0;
-    for (int column = 0; column < kBatch; ++column) {
-      const Doubles outputs = LiteralOutputs(column);
-      for (size_t i = 0; i < outputs.size(); ++i) {
-        loss += outputs[i] * static_cast<double>(loss_gradient_(static_cast<int>(i), column));
-      }
+    for (size_t column = 0; column < kBatch; ++column) {
+      loss += LiteralOutputs(static_cast<int>(column))[static_cast<size_t>(units_[column])] *
+              static_cast<double>(values_[column]);
     }
     return loss;
+  }
+
+  /// A backward pass whose stages go through columns and parts in these steps, the last ones first.
+  std::vector<float> Backward(int columns_at_once) {
+    std::vector<float> gradient(static_cast<size_t>(parameters_.size()), 123.0f);
+    const OutputGradient output_gradient{units_, values_};
+    for (const ParameterPart& part : mlp_.parts()) {
+      mlp_.Transpose(Values(parameters_), part, workspace_);
+    }
+    for (int end = kBatch; end > 0; end -= columns_at_once) {
+      mlp_.BackwardColumns(output_gradient, {std::max(0, end - columns_at_once), end}, workspace_);
+    }
+    std::for_each(mlp_.parts().rbegin(), mlp_.parts().rend(), [&](const ParameterPart& part) {
+      mlp_.BackwardPart(output_gradient, kBatch, part, workspace_, gradient);
+    });
+    return gradient;
   }
 
   Mlp mlp_;
   Vector parameters_;
   Doubles doubles_;
   MlpWorkspace workspace_;
-  Matrix loss_gradient_;
+  std::vector<int16_t> units_;
+  std::vector<float> values_;
   std::vector<std::vector<float>> observations_;
 };
 
@@ -73,8 +88,7 @@ TEST_P(MlpGradient, ForwardIsThatOfPlainLoops) {
 }
 
 TEST_P(MlpGradient, BackwardIsTheFiniteDifferenceOfTheLoss) {
-  std::vector<float> gradient(static_cast<size_t>(parameters_.size()));
-  mlp_.Backward(SpanOf(parameters_), kBatch, loss_gradient_, workspace_, gradient);
+  const std::vector<float> gradient = Backward(kBatch);
   constexpr double kStep = 1e-6;
   const size_t stride = doubles_.size() / 400 + 1;
   for (size_t i = 0; i < doubles_.size(); i += stride) {
@@ -88,17 +102,27 @@ TEST_P(MlpGradient, BackwardIsTheFiniteDifferenceOfTheLoss) {
   }
 }
 
-TEST_P(MlpGradient, BackwardOverwritesTheGradient) {
-  std::vector<float> first(static_cast<size_t>(parameters_.size()), 123.0f);
-  std::vector<float> second(first.size(), -4.0f);
-  mlp_.Backward(SpanOf(parameters_), kBatch, loss_gradient_, workspace_, first);
-  mlp_.Backward(SpanOf(parameters_), kBatch, loss_gradient_, workspace_, second);
-  EXPECT_EQ(first, second);
+TEST_P(MlpGradient, BitsDoNotDependOnHowColumnsAreDivided) {
+  const std::vector<float> together = Backward(kBatch);
+  for (const int columns_at_once : {1, 2, 3, 8}) {
+    EXPECT_EQ(Backward(columns_at_once), together) << columns_at_once;
+  }
+}
+
+TEST_P(MlpGradient, PartsAreAllParametersOnce) {
+  int64_t next = 0;
+  for (const ParameterPart& part : mlp_.parts()) {
+    EXPECT_EQ(part.first, next);
+    EXPECT_GT(part.end, part.first);
+    next = part.end;
+  }
+  EXPECT_EQ(next, mlp_.shape().parameter_count());
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, MlpGradient,
                          ::testing::Values(std::vector<int>{7, 20, 25, 20}, std::vector<int>{5, 64, 10},
-                                           std::vector<int>{9, 12}, std::vector<int>{4, 8, 8, 8, 10}));
+                                           std::vector<int>{9, 12}, std::vector<int>{4, 8, 8, 8, 10},
+                                           std::vector<int>{3, 200, 70, 5}));
 
 using Bits = std::vector<uint32_t>;
 
@@ -127,7 +151,7 @@ class MlpBits : public ::testing::TestWithParam<std::vector<int>> {
     for (size_t column = 0; column < members.size(); ++column) {
       SetColumn(workspace, static_cast<int>(column), observations_[static_cast<size_t>(members[column])]);
     }
-    mlp_.Forward(SpanOf(parameters_), static_cast<int>(members.size()), workspace);
+    mlp_.Forward(Values(parameters_), {0, static_cast<int>(members.size())}, workspace);
     return OutputBits(workspace, place);
   }
 
@@ -147,7 +171,7 @@ TEST_P(MlpBits, AreThoseOfTheObservationAloneInBatchesOfEveryWidth) {
     for (int column = 0; column < width; ++column) {
       SetColumn(workspace, column, observations_[static_cast<size_t>(column)]);
     }
-    mlp_.Forward(SpanOf(parameters_), width, workspace);
+    mlp_.Forward(Values(parameters_), {0, width}, workspace);
     for (int column = 0; column < width; ++column) {
       ASSERT_EQ(OutputBits(workspace, column), alone_[static_cast<size_t>(column)])
           << width << ", " << column;

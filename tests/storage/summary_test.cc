@@ -92,7 +92,7 @@ TEST(Summary, SaysWhatTheRunWas) {
   EXPECT_EQ(summary.at("wall_s"), 4.0);
   EXPECT_EQ(summary.at("updates_per_s"), 92.75);
   EXPECT_EQ(summary.at("transitions_per_s"), 195.0);
-  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(Crc32c(SpanOf(run.weights.back()))));
+  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(Crc32c(Values(run.weights.back()))));
 }
 
 TEST(Summary, GivesTheFiguresOfTheBestEvaluatedVersion) {
@@ -213,7 +213,7 @@ TEST(Summary, HasNoFiguresBeforeTheFirstEvaluation) {
   EXPECT_EQ(summary.at("completed"), false);
   EXPECT_EQ(summary.at("episodes"), 1);
   EXPECT_EQ(summary.at("updates"), 0);
-  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(Crc32c(SpanOf(run.weights.front()))));
+  EXPECT_EQ(summary.at("weights_crc32c"), EightDigits(Crc32c(Values(run.weights.front()))));
 }
 
 TEST(Summary, NamesTheWorldAndItsFigures) {

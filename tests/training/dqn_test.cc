@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "tests/nn/literal_network.h"
@@ -170,6 +171,49 @@ TEST_P(DqnTest, TargetChangesOnlyWhenItIsCopied) {
 
 INSTANTIATE_TEST_SUITE_P(PlainAndDouble, DqnTest, ::testing::Bool());
 
+/// A batch of random transitions with all actions allowed.
+MiniBatch WideBatch(int inputs, int actions, int size, RandomStream& stream) {
+  MiniBatch batch(inputs, actions, size);
+  for (int column = 0; column < size; ++column) {
+    for (int row = 0; row < inputs; ++row) {
+      batch.observations(row, column) = static_cast<float>(stream.NextUniform());
+      batch.next_observations(row, column) = static_cast<float>(stream.NextUniform());
+    }
+    const auto i = static_cast<size_t>(column);
+    batch.actions[i] = static_cast<int16_t>(stream.NextBelow(static_cast<uint32_t>(actions)));
+    batch.rewards[i] = static_cast<float>(-stream.NextUniform());
+    batch.terminal[i] = stream.NextBelow(10) == 0 ? 1 : 0;
+  }
+  std::fill(batch.next_masks.begin(), batch.next_masks.end(), uint8_t{1});
+  return batch;
+}
+
+TEST(DqnThreads, ChangeNoBit) {
+  const MlpShape shape({7, 200, 256, 20});
+  for (const int size : {200, 64, 33, 5}) {
+    for (const bool double_dqn : {false, true}) {
+      DqnOptions options;
+      options.batch_size = size;
+      options.double_dqn = double_dqn;
+      std::optional<Vector> expected;
+      for (const int threads : {1, 2, 3, 8}) {
+        RandomStream stream(5, RandomPurpose::kTest, 0, 0);
+        Dqn dqn(shape, InitialParameters(shape, 1), options, threads);
+        for (int update = 0; update < 6; ++update) {
+          dqn.Update(WideBatch(7, 20, size, stream), 1e-3);
+          if (update == 3) {
+            dqn.CopyToTarget();
+          }
+        }
+        if (!expected) {
+          expected = dqn.current();
+        }
+        EXPECT_EQ(dqn.current(), *expected) << threads << " threads, batch " << size;
+      }
+    }
+  }
+}
+
 #ifndef FRESCO_SANITIZED
 
 class TrainingAllocations : public ::testing::Test {
@@ -217,7 +261,7 @@ TEST_F(TrainingAllocations, DoNotHappenInUpdatesAndTargetCopiesOnceWarm) {
     DqnOptions options;
     options.double_dqn = double_dqn;
     options.batch_size = kBatch;
-    Dqn dqn(shape, InitialParameters(shape, 1), options);
+    Dqn dqn(shape, InitialParameters(shape, 1), options, 2);
     const auto update = [&](uint32_t index) {
       Insert();
       Sample(index);
