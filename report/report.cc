@@ -97,7 +97,7 @@ OrderedJson WorldJson(const UavWorld& world) {
 /// Returns what `fresco evaluate --format json` prints, and adds for each slot whether the scheduled sensor
 /// is collected, that is, covered.
 OrderedJson FlightDataJson(const UavWorld& world, const Episode& flight) {
-  OrderedJson json = OrderedJson::parse(FlightJson(world, flight, ""));
+  OrderedJson json = OrderedJson::parse(EpisodeJson(world.Tell(flight), ""));
   for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
     const Cell cell = CellIn(flight.state(slot));
     const int scheduled = ActionIn(world, flight, slot).schedule;
