@@ -1,4 +1,4 @@
-#include "report/figure_writer.h"
+#include "paper/figure_writer.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -9,10 +9,10 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "report/flight_map.h"
+#include "paper/flight_map.h"
+#include "paper/study_statistics.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
-#include "report/study_statistics.h"
 #include "storage/policy.h"
 #include "worlds/uav/baselines.h"
 
