@@ -39,7 +39,7 @@ RESERVED = {
 # for what it has (worlds/world.h) and msgs/worlds.h for messages.
 UAV_ROOMS = {"worlds/uav", "planner", "paper"}
 UAV_FILES = re.compile(r"(msgs/(uav_config|flight_messages|worlds)|report/flight_\w+)\.(h|cc)")
-UAV_NAMES = re.compile(r"\b(AsUavWorld|RequireUavWorld|UavWorld)\b")
+UAV_NAMES = re.compile(r"\b(AsUavWorld|RequireUavWorld|UavWorld)\b|\"uav\"")
 PURE = {"nn", "worlds", "planner", "training"}  # no input or output, no clock, no random numbers but the counter-based ones
 IMPURE = re.compile(r"#include <(iostream|fstream|cstdio|chrono|random|thread|filesystem|unistd\.h)>")
 

@@ -37,7 +37,7 @@ struct ReferencePolicy {
 
 /// What a world states about itself.
 struct WorldDescription {
-  std::string name;                  ///< of the kind of world, e.g. "uav"
+  std::string name;                  ///< of the kind of world, e.g. "cartpole"
   std::vector<Quantity> state;       ///< the fields of a state, 1 to kMaximumStateSize
   std::vector<std::string> actions;  ///< a name for each action, e.g. "push left"; 1 to kMaximumActions
   int observation_size = 0;          ///< inputs of the network, >= 1
