@@ -82,7 +82,7 @@ function(fresco_test name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} fresco_test_options GTest::gmock GTest::gtest GTest::gtest_main)
   # tests/CMakeLists.txt has the two. Eigen comes with everything that knows of networks.
-  if(arg_LIBRARIES MATCHES "fresco_(nn|msgs|training|storage|actors|learner|logs|processes|report|soak|tools)")
+  if(arg_LIBRARIES MATCHES "fresco_(nn|msgs|training|storage|actors|learner|logs|processes|report|paper|soak|tools)")
     target_precompile_headers(${name} REUSE_FROM fresco_eigen_test_headers)
   else()
     target_precompile_headers(${name} REUSE_FROM fresco_test_headers)

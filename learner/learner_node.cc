@@ -7,9 +7,9 @@
 #include <chrono>
 
 #include "core/identifier.h"
-#include "msgs/flight_messages.h"
 #include "msgs/protocol_times.h"
 #include "msgs/world_messages.h"
+#include "msgs/worlds.h"
 
 namespace fresco {
 namespace {
@@ -183,7 +183,7 @@ void LearnerNode::SendWorldIfDue(int64_t now_us) {
     for (const world_t& message : WorldMessages(experiment_.world())) {
       bus_.Publish(channels_.world, message, identity_);
     }
-    for (const scenario_t& message : ScenarioMessages(experiment_.world())) {
+    for (const scenario_t& message : ScenarioMessages(experiment_)) {
       bus_.Publish(channels_.scenario, message, identity_);
     }
   }

@@ -51,13 +51,9 @@ void SetState(const UavWorld& world, const UavState& state, flight_t& message) {
 
 }  // namespace
 
-std::vector<scenario_t> ScenarioMessages(const World& world) {
+std::vector<scenario_t> ScenarioMessages(const UavWorld& world) {
   std::vector<scenario_t> messages;
-  const UavWorld* uav = AsUavWorld(world);
-  if (uav == nullptr) {
-    return messages;
-  }
-  const Scenario& scenario = uav->scenario();
+  const Scenario& scenario = world.scenario();
   const std::span<const Sensor> sensors = scenario.sensors;
   for (size_t first = 0; first < sensors.size(); first += kMaximumSensorsPerScenario) {
     scenario_t message = FieldOf(scenario);

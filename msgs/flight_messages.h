@@ -1,5 +1,5 @@
-// What viewers draw: the messages of a field of sensors and of a flight over it. Pure functions; any thread
-// may call them.
+// What viewers draw of the UAV's world: the messages of a field of sensors and of a flight over it. Code that
+// serves any world gets them from msgs/worlds.h. Pure functions; any thread may call them.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace fresco {
 
-/// Returns as many messages as the sensors of the UAV's world need, at most kMaximumSensorsPerScenario in
-/// each; none for another world. The caller fills in `utime`, `run_id` and `config_hash`.
-std::vector<scenario_t> ScenarioMessages(const World& world);
+/// Returns as many messages as the sensors need, at most kMaximumSensorsPerScenario in each. The caller fills
+/// in `utime`, `run_id` and `config_hash`.
+std::vector<scenario_t> ScenarioMessages(const UavWorld& world);
 
 /// Returns one message for each slot of the flight and one for its final state. The caller fills in `utime`,
 /// `run_id`, `config_hash` and `flight`. Policy names longer than kMaximumPolicyBytes are cut.

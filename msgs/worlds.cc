@@ -8,6 +8,8 @@
 #include <string>
 
 #include "core/error.h"
+#include "msgs/experiment.h"
+#include "msgs/flight_messages.h"
 #include "msgs/plugin_config.h"
 #include "msgs/proto/options.pb.h"
 #include "msgs/uav_config.h"
@@ -20,11 +22,18 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using Config = proto::ExperimentConfig;
 
+/// What viewers get of a kind of world. The worlds are of this kind.
+struct ViewerMessages {
+  std::vector<scenario_t> (*of_world)(const World&);
+  std::vector<flight_t> (*of_episode)(const World&, const Episode&, const std::string& policy);
+};
+
 struct WorldKind {
   Config::WorldCase world;  // the field that has its configuration
   std::shared_ptr<const World> (*make)(const Config&);
   void (*complete)(Config&) = nullptr;
   std::string (*code)(const Config&) = nullptr;  // see CodeOf
+  const ViewerMessages* viewer_messages = nullptr;
 };
 
 template <class BuiltIn>
@@ -32,8 +41,18 @@ std::shared_ptr<const World> Make(const proto::BuiltInWorld& config) {
   return std::make_shared<BuiltIn>(config.maximum_steps());
 }
 
+const UavWorld& Uav(const World& world) {
+  return static_cast<const UavWorld&>(world);
+}
+
+constexpr ViewerMessages kUavMessages = {
+    [](const World& world) { return ScenarioMessages(Uav(world)); },
+    [](const World& world, const Episode& flight, const std::string& policy) {
+      return FlightMessages(Uav(world), flight, policy);
+    }};
+
 const WorldKind kWorldKinds[] = {
-    {Config::kScenario, MakeUavWorld, CompleteScenario},
+    {Config::kScenario, MakeUavWorld, CompleteScenario, nullptr, &kUavMessages},
     {Config::kCartpole, [](const Config& config) { return Make<CartPole>(config.cartpole()); }},
     {Config::kAcrobot, [](const Config& config) { return Make<Acrobot>(config.acrobot()); }},
     {Config::kPlugin, MakePluginWorld, CompletePlugin, PluginCode},
@@ -100,6 +119,21 @@ std::shared_ptr<const World> MakeWorld(const Config& config) {
   std::shared_ptr<const World> world = KindOf(config).make(config);
   CheckCapabilities(config, *world);
   return world;
+}
+
+bool HasFlights(const Experiment& experiment) {
+  return KindOf(experiment.config()).viewer_messages != nullptr;
+}
+
+std::vector<scenario_t> ScenarioMessages(const Experiment& experiment) {
+  return HasFlights(experiment) ? KindOf(experiment.config()).viewer_messages->of_world(experiment.world())
+                                : std::vector<scenario_t>();
+}
+
+std::vector<flight_t> FlightMessages(const Experiment& experiment, const Episode& episode,
+                                     const std::string& policy) {
+  FRESCO_CHECK(HasFlights(experiment));
+  return KindOf(experiment.config()).viewer_messages->of_episode(experiment.world(), episode, policy);
 }
 
 }  // namespace fresco

@@ -4,11 +4,15 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "msgs/proto/experiment.pb.h"
+#include "msgs/wire.h"
 #include "worlds/world.h"
 
 namespace fresco {
+
+class Experiment;
 
 /// Sets what the configuration leaves out of its world and Protobuf's field defaults can't express; without
 /// any world, the paper's.
@@ -21,5 +25,15 @@ std::string CodeOf(const proto::ExperimentConfig& config);
 /// Makes the world of a complete configuration whose ranges were checked. Throws UsageError if its values do
 /// not fit together, or if another part of the configuration asks for what this world does not have.
 std::shared_ptr<const World> MakeWorld(const proto::ExperimentConfig& config);
+
+/// Whether viewers get messages of the experiment's kind of world: of the world itself (FRESCO_SCENARIO) and
+/// of its episodes (FRESCO_FLIGHT).
+bool HasFlights(const Experiment& experiment);
+/// The messages of the world; none if !HasFlights. The caller fills in `utime`, `run_id` and `config_hash`.
+std::vector<scenario_t> ScenarioMessages(const Experiment& experiment);
+/// The messages of an episode, one for each of its states. The caller fills in `utime`, `run_id`,
+/// `config_hash` and `flight`. CHECKs HasFlights.
+std::vector<flight_t> FlightMessages(const Experiment& experiment, const Episode& episode,
+                                     const std::string& policy);
 
 }  // namespace fresco

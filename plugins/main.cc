@@ -36,11 +36,19 @@ int Describe(const Arguments& arguments) {
   return 0;
 }
 
-/// Plays every episode twice; the second time while another one is being played. Returns the exit status.
+/// Whether the actions of an episode lead to the same in the episode of another seed.
+bool SeedDecidesNothing(const World& world, const Episode& episode, uint64_t other_seed) {
+  Episode other;
+  return FlyActions(world, other_seed, episode.actions, other) && SameBits(episode, other);
+}
+
+/// Plays every episode twice; the second time while another one is being played. In a world without chance,
+/// plays it with another seed, too. Returns the exit status.
 int Check(const Arguments& arguments) {
   const PluginWorld world(arguments.spec, DescribePlugin(arguments.spec));
   int64_t steps = 0;
   int64_t different = 0;
+  int64_t by_chance = 0;
   const int64_t begin_us = MonotonicMicroseconds();
   for (int i = 0; i < arguments.episodes && !StopSignal::Requested(); ++i) {
     const uint64_t seed = arguments.seed + static_cast<uint64_t>(i);
@@ -50,6 +58,8 @@ int Check(const Arguments& arguments) {
     const Episode second = PlayAtRandom(world, seed);
     steps += first.transitions() + second.transitions();
     different += SameBits(first, second) ? 0 : 1;
+    const bool has_chance = world.description().random;
+    by_chance += has_chance || SeedDecidesNothing(world, first, seed + 1) ? 0 : 1;
     fmt::print("seed {}: {} steps, return {:g}, {}{}\n", seed, first.transitions(), Return(first),
                first.ending == Ending::kTerminal ? "terminal" : "truncated",
                SameBits(first, second) ? "" : "; DIFFERENT when played again");
@@ -61,6 +71,10 @@ int Check(const Arguments& arguments) {
         fmt::format("{} of {} episodes are not functions of their seed and actions, so a run would not be "
                     "repeatable",
                     different, arguments.episodes));
+  }
+  if (by_chance > 0) {
+    throw Failure(fmt::format("{} of {} episodes are others with another seed, but without_chance is 1",
+                              by_chance, arguments.episodes));
   }
   fmt::print("every episode was the same when played again\n");
   return 0;

@@ -53,7 +53,8 @@ std::string ProblemOf(const fresco_world_description& world) {
        {out_of_range("state_size", world.state_size, 1, kMaximumStateSize),
         out_of_range("action_count", world.action_count, 1, kMaximumActions),
         out_of_range("longest_episode", world.longest_episode, 1, kMaximumEpisode),
-        out_of_range("discount", world.discount, 0, 1)}) {
+        out_of_range("discount", world.discount, 0, 1),
+        out_of_range("without_chance", world.without_chance, 0, 1)}) {
     if (!problem.empty()) {
       return problem;
     }
@@ -97,6 +98,7 @@ PluginDescription DescriptionOf(const fresco_world_description& from) {
   world.longest_episode = from.longest_episode;
   world.discount = from.discount;
   world.repeatable = false;  // the learner does not run its code
+  world.random = from.without_chance == 0;
   world.figures = {{"return", ""}};
   world.success = from.success;
   return to;

@@ -95,6 +95,7 @@ std::string ToJson(const PluginDescription& description) {
   json["discount"] = world.discount;
   json["success"] = world.success;
   json["success_return"] = description.success_return;
+  json["without_chance"] = !world.random;
   return json.dump(2);
 }
 
@@ -112,6 +113,7 @@ PluginDescription PluginDescriptionFrom(const std::string& text) {
     world.longest_episode = json.at("longest_episode");
     world.discount = json.at("discount");
     world.repeatable = false;
+    world.random = !json.at("without_chance").get<bool>();
     world.figures = {{"return", ""}};
     world.success = json.at("success");
     description.success_return = json.at("success_return");

@@ -150,6 +150,8 @@ std::unique_ptr<World> MakeWorld(const std::string& settings) {
   description.actions = world->actions.data();
   description.discount = 0.99;
   description.success = "succeeded";
+  description.without_chance =
+      py::hasattr(object, "without_chance") && object.attr("without_chance").cast<bool>() ? 1 : 0;
   return world;
 }
 

@@ -128,3 +128,19 @@ class FlightPlayer {
     byId("play").textContent = "Play";
   }
 }
+
+function showFlights() {
+  try {
+    const flightData = readFlightData(byId("flight-data").textContent);
+    byId("player").hidden = false;
+    new FlightPlayer(flightData);
+  } catch (error) {
+    byId("player").hidden = true;
+    const note = byId("flight-error");
+    note.hidden = false;
+    note.textContent = `The flights can't be shown; the page's flight data is broken. ${error.message}. ` +
+                       "Write the report again.";
+  }
+}
+
+showFlights();

@@ -10,24 +10,6 @@ async function checkFigure(image) {
   }
 }
 
-function showFlights() {
-  const data = document.getElementById("flight-data");
-  if (!data) {
-    return;  // a report without flights
-  }
-  try {
-    const flightData = readFlightData(data.textContent);
-    byId("player").hidden = false;
-    new FlightPlayer(flightData);
-  } catch (error) {
-    byId("player").hidden = true;
-    const note = byId("flight-error");
-    note.hidden = false;
-    note.textContent = `The flights can't be shown; the page's flight data is broken. ${error.message}. ` +
-                       "Write the report again.";
-  }
-}
-
 /** The configuration is printed, too. */
 function openForPrint() {
   const details = document.querySelectorAll("details:not([open])");
@@ -37,4 +19,3 @@ function openForPrint() {
 
 document.querySelectorAll("#figures img").forEach(checkFigure);
 openForPrint();
-showFlights();

@@ -2,18 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "core/error.h"
 #include "core/installation.h"
+#include "report/drawings.h"
 #include "report/report_html.h"
-#include "report/result_display.h"
 
 namespace fresco {
 namespace {
-
-using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::string_view kPage =
 #include "report/page.html.inc"
@@ -21,15 +18,7 @@ constexpr std::string_view kPage =
 constexpr std::string_view kStyle =
 #include "report/page.css.inc"
     ;
-constexpr std::string_view kFlightPlayer =
-#include "report/flight_player.html.inc"
-    ;
-// The page's script. Each file uses functions of the files before it.
 constexpr std::string_view kScript =
-#include "report/aoi_bars.js.inc"
-#include "report/flight_data.js.inc"
-#include "report/flight_map.js.inc"
-#include "report/flight_player.js.inc"
 #include "report/page.js.inc"
     ;
 
@@ -74,56 +63,18 @@ std::string FiguresHtml(const std::vector<ReportFigure>& figures) {
   return html + "</div>\n";
 }
 
-OrderedJson CellJson(Cell cell) {
-  return {{"column", cell.column}, {"row", cell.row}};
-}
-
-OrderedJson WorldJson(const UavWorld& world) {
-  const Scenario& scenario = world.scenario();
-  OrderedJson sensors = OrderedJson::array();
-  for (const Sensor& sensor : scenario.sensors) {
-    sensors.push_back({{"x_m", sensor.x_m}, {"y_m", sensor.y_m}, {"weight", sensor.weight}});
-  }
-  return {{"columns", scenario.columns},
-          {"rows", scenario.rows},
-          {"cell_m", scenario.cell_m},
-          {"slots", scenario.slots},
-          {"start", CellJson(scenario.start)},
-          {"stop", CellJson(scenario.stop)},
-          {"coverage_radius_m", scenario.coverage_radius_m},
-          {"sensors", std::move(sensors)}};
-}
-
-/// Returns what `fresco evaluate --format json` prints, and adds for each slot whether the scheduled sensor
-/// is collected, that is, covered.
-OrderedJson FlightDataJson(const UavWorld& world, const Episode& flight) {
-  OrderedJson json = OrderedJson::parse(FlightJson(world, flight, ""));
-  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
-    const Cell cell = CellIn(flight.state(slot));
-    const int scheduled = ActionIn(world, flight, slot).schedule;
-    json["flight"][slot]["collected"] = scheduled > 0 && world.Covers(cell, scheduled - 1);
-  }
-  return json;
-}
-
-std::string FlightsHtml(const UavWorld& world, const std::vector<ReportFlight>& flights) {
-  OrderedJson array = OrderedJson::array();
-  for (const ReportFlight& flight : flights) {
-    array.push_back(FlightDataJson(world, flight.flight));
-    array.back()["policy"] = flight.name;
-  }
-  const OrderedJson data = {{"world", WorldJson(world)}, {"flights", std::move(array)}};
-  // Bytes of a name that are not UTF-8 become replacement characters.
-  const std::string text = data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-  return FilledTemplate(kFlightPlayer, {{"data", EscapedJson(text)}});
-}
-
 std::string ConfigurationHtml(const std::string& text) {
   return "<details>\n<summary>The experiment in text format</summary>\n<pre tabindex=\"0\">" +
          EscapedHtml(text) + "</pre>\n</details>\n";
 }
 
-std::vector<Section> Sections(const ReportContents& contents) {
+/// How the page draws the episodes; null if it shows none.
+const Drawing* DrawingFor(const ReportContents& contents) {
+  FRESCO_CHECK(contents.episodes.empty() || contents.world != nullptr);
+  return contents.episodes.empty() ? nullptr : DrawingOf(*contents.world);
+}
+
+std::vector<Section> Sections(const ReportContents& contents, const Drawing* drawing) {
   std::vector<Section> sections;
   if (!contents.tables.empty()) {
     sections.push_back({"numbers", "Numbers", TablesHtml(contents.tables)});
@@ -131,9 +82,8 @@ std::vector<Section> Sections(const ReportContents& contents) {
   if (!contents.figures.empty()) {
     sections.push_back({"figures", "Figures", FiguresHtml(contents.figures)});
   }
-  if (!contents.flights.empty()) {
-    FRESCO_CHECK(contents.world != nullptr);
-    sections.push_back({"flights", "Flights", FlightsHtml(*contents.world, contents.flights)});
+  if (drawing != nullptr) {
+    sections.push_back({drawing->id, drawing->heading, drawing->html(*contents.world, contents.episodes)});
   }
   if (!contents.configuration.empty()) {
     sections.push_back({"configuration", "Configuration", ConfigurationHtml(contents.configuration)});
@@ -163,7 +113,8 @@ std::string SectionsHtml(const std::vector<Section>& sections) {
 }  // namespace
 
 std::string ReportPage(const ReportContents& contents) {
-  const std::vector<Section> sections = Sections(contents);
+  const Drawing* drawing = DrawingFor(contents);
+  const std::vector<Section> sections = Sections(contents, drawing);
   return FilledTemplate(
       kPage,
       {{"title", EscapedHtml(contents.title)},
@@ -173,8 +124,8 @@ std::string ReportPage(const ReportContents& contents) {
        {"links", sections.size() > 1 ? LinksHtml(sections) : ""},
        {"sections", SectionsHtml(sections)},
        {"version", kSoftwareVersion},
-       {"footnote", contents.world != nullptr ? " AoI is age of information, in slots." : ""},
-       {"script", std::string(kScript)}});
+       {"footnote", drawing == nullptr ? "" : " " + std::string(drawing->footnote)},
+       {"script", std::string(drawing == nullptr ? "" : drawing->script) + std::string(kScript)}});
 }
 
 }  // namespace fresco

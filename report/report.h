@@ -1,12 +1,12 @@
-// Makes the report page: one HTML file with the numbers, figures and flights of a run or of a study. The page
-// loads nothing from the network or from other files. Its templates and scripts are the other files in
+// Makes the report page: one HTML file with the numbers, figures and episodes of a run or of a study. The
+// page loads nothing from the network or from other files. Its templates and scripts are the other files in
 // report/, which are embedded into the program. A pure function; any thread may call it.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "worlds/uav/flight.h"
+#include "worlds/episode.h"
 
 namespace fresco {
 
@@ -24,9 +24,9 @@ struct ReportTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-struct ReportFlight {
+struct ReportEpisode {
   std::string name;  ///< its name on the page: "this run (DQN)", "exact optimum"
-  Episode flight;
+  Episode episode;
 };
 
 /// All texts are plain text; the page shows every character of them as it is. Empty members are left out of
@@ -36,13 +36,12 @@ struct ReportContents {
   std::string summary;
   std::vector<ReportTable> tables;
   std::vector<ReportFigure> figures;
-  std::vector<ReportFlight> flights;  ///< all flown in `world`; the page shows the first one first
-  const UavWorld* world = nullptr;    ///< must be set if there are flights
-  std::string configuration;          ///< in text format
+  std::vector<ReportEpisode> episodes;  ///< all of `world`; left out if there is no drawing (drawings.h)
+  const World* world = nullptr;         ///< must be set if there are episodes
+  std::string configuration;            ///< in text format
 };
 
-/// Returns the page. If a figure's text is not an SVG document, the page says so in its place. The page
-/// contains every AoI of every slot, which take about 4 bytes each.
+/// Returns the page. If a figure's text is not an SVG document, the page says so in its place.
 std::string ReportPage(const ReportContents& contents);
 
 }  // namespace fresco

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "storage/optimum_search.h"
 #include "storage/policy.h"
-#include "worlds/uav/aoi_figures.h"
+#include "worlds/episode.h"
 
 namespace fresco {
 namespace {
@@ -93,16 +94,53 @@ TableRow FiguresRow(const std::string& title, const Json& figures, const Json& s
   return row;
 }
 
-}  // namespace
-
-std::string Title(const std::string& name) {
-  std::string title = name;
-  std::replace(title.begin(), title.end(), '_', ' ');
-  if (title.ends_with("aoi")) {  // an acronym
-    title.replace(title.size() - 3, 3, "AoI");
-  }
-  return title;
+OrderedJson ValueJson(const AccountValue& value) {
+  return std::visit(
+      [](const auto& content) {
+        if constexpr (std::is_same_v<decltype(content), const std::monostate&>) {
+          return OrderedJson();
+        } else {
+          return OrderedJson(content);
+        }
+      },
+      value);
 }
+
+struct ValueTexts {
+  std::string operator()(std::monostate) const { return "-"; }
+  std::string operator()(bool value) const { return value ? "yes" : "no"; }
+  std::string operator()(int64_t value) const { return std::to_string(value); }
+  std::string operator()(double value) const { return fmt::format("{:.6g}", value); }
+  std::string operator()(const std::string& value) const { return value; }
+  std::string operator()(const std::vector<int64_t>& value) const {
+    return fmt::format("{}", fmt::join(value, " "));
+  }
+};
+
+std::string ValueText(const AccountValue& value) {
+  return std::visit(ValueTexts{}, value);
+}
+
+/// The rows as lines that begin with `indent`, with columns of at least the given widths.
+std::string AlignedTable(const std::vector<TableRow>& rows, std::vector<size_t> widths,
+                         const std::vector<bool>& at_right, const std::string& indent) {
+  for (const TableRow& row : rows) {
+    for (size_t i = 0; i < row.size(); ++i) {
+      widths[i] = std::max(widths[i], row[i].size());
+    }
+  }
+  std::string table;
+  for (const TableRow& row : rows) {
+    for (size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(i + 1 < row.size() || at_right[i] ? widths[i] - row[i].size() : 0, ' ');
+      table += (i == 0 ? indent : "  ") + (at_right[i] ? padding + row[i] : row[i] + padding);
+    }
+    table += "\n";
+  }
+  return table;
+}
+
+}  // namespace
 
 std::string PercentText(double share) {
   constexpr int kMostDigits = 6;
@@ -182,53 +220,51 @@ std::string OptimumNote(const std::string& summary_json) {
 
 std::string ResultTable(const std::string& summary_json) {
   const std::vector<TableRow> rows = PolicyRows(summary_json);
-  std::vector<size_t> widths = {16};
-  widths.resize(rows.front().size(), 10);
-  for (const TableRow& row : rows) {
-    for (size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], row[i].size());
-    }
-  }
-  std::string table;
-  for (const TableRow& row : rows) {
-    std::string line = fmt::format("  {:<{}}", row.front(), widths.front());
-    for (size_t i = 1; i + 1 < row.size(); ++i) {
-      line += fmt::format("  {:>{}}", row[i], widths[i]);
-    }
-    table += line + "  " + row.back() + "\n";
-  }
+  const size_t columns = rows.front().size();
+  std::vector<size_t> widths(columns, 10);
+  widths.front() = 16;
+  std::vector<bool> at_right(columns, true);
+  at_right.front() = at_right.back() = false;
+  const std::string table = AlignedTable(rows, widths, at_right, "  ");
   const std::string note = OptimumNote(summary_json);
   return note.empty() ? table : table + note + "\n";
 }
 
-std::string FlightJson(const UavWorld& world, const Episode& flight, const std::string& policy,
-                       const std::optional<Plan>& plan) {
-  const AoiFigures figures = Figures(world, flight);
-  OrderedJson json = {{"policy", policy},
-                      {"arrived", Arrived(flight)},
-                      {"outcome", OutcomeName(OutcomeOf(flight))},
-                      {"slots", flight.transitions() + 1},
-                      {"total_aoi", figures.total_aoi},
-                      {"average_aoi", figures.average_aoi},
-                      {"sum_aoi", figures.sum_aoi},
-                      {"residual_energy_j", ResidualEnergy(world, flight)}};
+std::string EpisodeJson(const EpisodeAccount& account, const std::string& policy,
+                        const std::optional<Plan>& plan) {
+  OrderedJson json = {{"policy", policy}};
+  for (const auto& [name, value] : account.facts) {
+    json[name] = ValueJson(value);
+  }
   if (plan) {
     json["optimal"] = plan->optimal;
     json["lower_bound_total_aoi"] = plan->lower_bound_total_aoi;
     json["lower_bound_average_aoi"] = plan->lower_bound_average_aoi;
   }
-  OrderedJson& slots = json["flight"] = OrderedJson::array();
-  for (size_t slot = 0; slot <= flight.actions.size(); ++slot) {
-    const UavState state = StateIn(flight, slot);
-    const Action action = ActionIn(world, flight, slot);
-    slots.push_back({{"slot", state.slot},
-                     {"column", state.cell.column},
-                     {"row", state.cell.row},
-                     {"move", MoveName(action.move)},
-                     {"scheduled", action.schedule},
-                     {"aoi", state.aoi}});
+  OrderedJson& steps = json[account.steps_name] = OrderedJson::array();
+  for (const std::vector<AccountValue>& row : account.steps) {
+    OrderedJson step;
+    for (size_t i = 0; i < row.size(); ++i) {
+      step[account.columns[i]] = ValueJson(row[i]);
+    }
+    steps.push_back(std::move(step));
   }
   return json.dump(2);
+}
+
+std::string StepTable(const EpisodeAccount& account) {
+  std::vector<TableRow> rows = {account.columns};
+  for (const std::vector<AccountValue>& values : account.steps) {
+    rows.emplace_back();
+    std::transform(values.begin(), values.end(), std::back_inserter(rows.back()), ValueText);
+  }
+  const auto is_number = [](const AccountValue& value) {
+    return std::holds_alternative<int64_t>(value) || std::holds_alternative<double>(value);
+  };
+  std::vector<bool> at_right;
+  std::transform(account.steps.front().begin(), account.steps.front().end(), std::back_inserter(at_right),
+                 is_number);
+  return AlignedTable(rows, std::vector<size_t>(account.columns.size()), at_right, "");
 }
 
 }  // namespace fresco

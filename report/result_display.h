@@ -1,5 +1,5 @@
-// Makes the texts that commands show of runs and flights: a line of progress, a table of results, a flight as
-// JSON. Pure functions; any thread may call them.
+// Makes the texts that commands show of runs and episodes: a line of progress, a table of results, an episode
+// as a table or as JSON. Pure functions; any thread may call them.
 #pragma once
 
 #include <optional>
@@ -30,18 +30,16 @@ std::string OptimumNote(const std::string& summary_json);
 /// Returns the final table of a run, followed by the note, from a summary's JSON.
 std::string ResultTable(const std::string& summary_json);
 
-/// Returns a name for people: "average AoI" for "average_aoi".
-std::string Title(const std::string& name);
-
 /// Returns a share, 0 to 1, in whole percent: "37 %". It has more digits where "0 %" or "100 %" would be
 /// untrue.
 std::string PercentText(double share);
 
-/// Returns an object with policy, arrived, outcome, slots, total_aoi, average_aoi, sum_aoi, residual_energy_j
-/// and flight. The latter is a list of {slot, column, row, move, scheduled, aoi}, one for each slot, with the
-/// AoI at its beginning. If there is a plan, the object also has optimal, lower_bound_total_aoi and
-/// lower_bound_average_aoi.
-std::string FlightJson(const UavWorld& world, const Episode& flight, const std::string& policy,
-                       const std::optional<Plan>& plan = std::nullopt);
+/// Returns an object with `policy`, the facts of the account, and its table of steps as a list of objects. If
+/// there is a plan, the object also has optimal, lower_bound_total_aoi and lower_bound_average_aoi.
+std::string EpisodeJson(const EpisodeAccount& account, const std::string& policy,
+                        const std::optional<Plan>& plan = std::nullopt);
+
+/// Returns the account's table of steps as text: a heading and a line for each step.
+std::string StepTable(const EpisodeAccount& account);
 
 }  // namespace fresco

@@ -10,11 +10,11 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "report/drawings.h"
 #include "report/result_display.h"
 #include "storage/network_file.h"
 #include "storage/policy.h"
 #include "training/flyer.h"
-#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -39,13 +39,13 @@ size_t ColumnOf(const std::vector<std::string>& header, const std::string& name,
   return static_cast<size_t>(found - header.begin());
 }
 
-/// The best flight that the search found, from its actions in optimum.json.
-Episode FlightOfOptimum(const World& world, const Json& optimum, const Path& file) {
-  Episode flight;
-  if (!FlyActions(world, 0, optimum.at("actions").get<std::vector<int16_t>>(), flight)) {
-    throw Failure(file.string() + ": its actions are no flight of this run's scenario");
+/// The best episode that the search found, from its actions in optimum.json.
+Episode EpisodeOfOptimum(const World& world, const Json& optimum, const Path& file) {
+  Episode episode;
+  if (!FlyActions(world, 0, optimum.at("actions").get<std::vector<int16_t>>(), episode)) {
+    throw Failure(file.string() + ": its actions are no episode of this run's world");
   }
-  return flight;
+  return episode;
 }
 
 std::string Label(const Quantity& quantity) {
@@ -95,33 +95,35 @@ LinePlot LearningCurvePlot(const LearningCurve& curve) {
 }
 
 FinishedRun::FinishedRun(const Path& folder)
-    : experiment_(Experiment::Load((folder / "config.textproto").string())),
+    : folder_(folder),
+      experiment_(Experiment::Load((folder / "config.textproto").string())),
       summary_(ReadFile(folder / "summary.json")) {
-  AddFlights(folder);
-  ReadLearningCurve(folder);
+  ReadLearningCurve();
 }
 
-void FinishedRun::AddFlights(const Path& folder) {
-  if (AsUavWorld(world()) == nullptr) {
-    return;
+std::vector<ReportEpisode> FinishedRun::FlyEpisodes() const {
+  std::vector<ReportEpisode> episodes;
+  if (world().description().random) {
+    return episodes;
   }
-  if (std::filesystem::exists(folder / "best.network")) {
-    const StoredNetwork network = ReadNetworkFile(folder / "best.network");
-    flights_.push_back(
+  if (std::filesystem::exists(folder_ / "best.network")) {
+    const StoredNetwork network = ReadNetworkFile(folder_ / "best.network");
+    episodes.push_back(
         {"this run (DQN)", FlyGreedily(experiment_, 0, std::make_shared<const Vector>(network.parameters))});
   }
-  if (std::filesystem::exists(folder / "optimum.json")) {
-    const Path file = folder / "optimum.json";
+  if (std::filesystem::exists(folder_ / "optimum.json")) {
+    const Path file = folder_ / "optimum.json";
     const Json optimum = Json::parse(ReadFile(file));
-    flights_.push_back(
-        {FoundFlightName(optimum.at("optimal").get<bool>()), FlightOfOptimum(world(), optimum, file)});
+    episodes.push_back(
+        {FoundFlightName(optimum.at("optimal").get<bool>()), EpisodeOfOptimum(world(), optimum, file)});
   }
   for (const ReferencePolicy& policy : world().reference_policies()) {
-    flights_.push_back({policy.title, world().FlyReference(policy.name)});
+    episodes.push_back({policy.title, world().FlyReference(policy.name)});
   }
+  return episodes;
 }
 
-void FinishedRun::ReadLearningCurve(const Path& folder) {
+void FinishedRun::ReadLearningCurve() {
   const WorldDescription& description = world().description();
   const std::string& score_name = description.figures.front().name;
   learning_curve_.title = "Greedy episodes during the training";
@@ -130,7 +132,7 @@ void FinishedRun::ReadLearningCurve(const Path& folder) {
   if (!optimal.is_null()) {
     learning_curve_.optimum_score = optimal.get<double>();
   }
-  const Path file = folder / "metrics.csv";
+  const Path file = folder_ / "metrics.csv";
   if (!std::filesystem::exists(file)) {
     return;
   }
@@ -186,8 +188,10 @@ void WriteRunReport(const Path& folder) {
       spdlog::warn("report.html has no learning curve: {}", error.what());
     }
   }
-  contents.flights = run.flights();
-  contents.world = AsUavWorld(run.world());
+  if (DrawingOf(run.world()) != nullptr) {
+    contents.episodes = run.FlyEpisodes();
+    contents.world = &run.world();
+  }
   contents.configuration = run.experiment().Text();
   WriteFileAtomically(folder / "report.html", ReportPage(contents));
 }

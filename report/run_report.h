@@ -1,5 +1,6 @@
-// Reads the folder of a run that has ended and writes its report: the learning curve and, in the UAV's world,
-// the run's flight beside those of the baselines and the optimum. Only one thread at a time may use a folder.
+// Reads the folder of a run that has ended and writes its report: the learning curve and, if the world has a
+// drawing (drawings.h), the run's episode beside those of the reference policies and the optimum. Only one
+// thread at a time may use a folder.
 #pragma once
 
 #include <cstdint>
@@ -45,19 +46,20 @@ class FinishedRun {
   const World& world() const { return experiment_.world(); }
   /// The text of summary.json.
   const std::string& summary() const { return summary_; }
-  /// In the UAV's world, the flights of the run's best evaluated policy (if there is one), of the optimum or
-  /// the best flight that the search found (if there was a search), and of both baselines.
-  const std::vector<ReportFlight>& flights() const { return flights_; }
+  /// In a world without chance, where one episode tells everything about a policy: the episodes of the run's
+  /// best evaluated policy (if there is one), of the optimum or the best that the search found (if there was
+  /// a search), and of the reference policies. Runs the code of the world, of a plug-in too. In a world with
+  /// chance there are none.
+  std::vector<ReportEpisode> FlyEpisodes() const;
   /// Has no points if nothing was evaluated.
   const LearningCurve& learning_curve() const { return learning_curve_; }
 
  private:
-  void AddFlights(const std::filesystem::path& folder);
-  void ReadLearningCurve(const std::filesystem::path& folder);
+  void ReadLearningCurve();
 
+  std::filesystem::path folder_;
   Experiment experiment_;
   std::string summary_;
-  std::vector<ReportFlight> flights_;
   LearningCurve learning_curve_;
 };
 

@@ -17,7 +17,6 @@
 #include "storage/checkpoint_file.h"
 #include "storage/run_folder.h"
 #include "training/flyer.h"
-#include "worlds/uav/aoi_figures.h"
 
 namespace fresco {
 namespace {
@@ -172,16 +171,12 @@ std::string FoundFlightName(bool proved) {
   return proved ? "exact optimum" : "best flight of the search";
 }
 
-std::string FlightName(const FlownPolicy& flown, const std::string& policy) {
+std::string EpisodeName(const FlownPolicy& flown, const std::string& policy) {
   return flown.plan && !flown.plan->optimal ? FoundFlightName(false) : policy;
 }
 
-std::string FlightSummary(const FlownPolicy& flown, const std::string& policy) {
-  const UavWorld& world = RequireUavWorld(flown.world(), "a flight");
-  const AoiFigures figures = Figures(world, flown.flight);
-  return fmt::format("{}: {}; average AoI {:.3f} slots, total AoI {}, {:.0f} J left",
-                     FlightName(flown, policy), OutcomeName(OutcomeOf(flown.flight)), figures.average_aoi,
-                     figures.total_aoi, ResidualEnergy(world, flown.flight));
+std::string EpisodeSummary(const FlownPolicy& flown, const std::string& policy) {
+  return EpisodeName(flown, policy) + ": " + flown.world().Tell(flown.episode).sentence;
 }
 
 Plan PlanWithin(const World& world, const PlannerLimits& limits) {

@@ -49,7 +49,7 @@ ChosenPolicy ReadChoice(const PolicyChoice& choice);
 /// An episode of a policy, and the experiment that defines its world.
 struct FlownPolicy {
   Experiment experiment;
-  Episode flight;
+  Episode episode;
   std::optional<Plan> plan = std::nullopt;  ///< set if the policy is "optimal"
 
   const World& world() const { return experiment.world(); }
@@ -62,13 +62,13 @@ FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen, ui
 /// Returns the name of the best flight that a search found: "exact optimum" only if that is proved.
 std::string FoundFlightName(bool proved);
 
-/// Returns the name of the flight: the policy as it was named on the command line, or FoundFlightName if the
+/// Returns the name of the episode: the policy as it was named on the command line, or FoundFlightName if the
 /// search for the optimum ended before the proof.
-std::string FlightName(const FlownPolicy& flown, const std::string& policy);
+std::string EpisodeName(const FlownPolicy& flown, const std::string& policy);
 
-/// Describes an episode in the UAV's world: "aoi: arrived; average AoI 17.543 slots, total AoI 3684, 14211 J
-/// left".
-std::string FlightSummary(const FlownPolicy& flown, const std::string& policy);
+/// Describes the episode with the world's own words: "aoi: arrived; average AoI 17.543 slots, total AoI 3684,
+/// 14211 J left".
+std::string EpisodeSummary(const FlownPolicy& flown, const std::string& policy);
 
 /// Searches for the exact optimum until it is proved, a limit is reached or the program is asked to stop.
 /// Returns the best flight found. CHECKs CanPlan.

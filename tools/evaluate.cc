@@ -11,7 +11,6 @@
 #include "storage/policy.h"
 #include "tools/subcommands.h"
 #include "training/schedules.h"
-#include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
@@ -24,18 +23,6 @@ struct EvaluateOptions {
   std::optional<uint64_t> seed;
   std::string format = "text";
 };
-
-void PrintFlight(const UavWorld& world, const FlownPolicy& flown, const std::string& policy) {
-  fmt::print("slot  cell      move   scheduled  AoI\n");
-  for (size_t slot = 0; slot <= flown.flight.actions.size(); ++slot) {
-    const UavState state = StateIn(flown.flight, slot);
-    const Action action = ActionIn(world, flown.flight, slot);
-    const std::string cell = fmt::format("({},{})", state.cell.column, state.cell.row);
-    fmt::print("{:>4}  {:<8}  {:<5}  {:>9}  {}\n", state.slot, cell, MoveName(action.move),
-               action.schedule == 0 ? "-" : std::to_string(action.schedule), fmt::join(state.aoi, " "));
-  }
-  fmt::print("\n{}\n", FlightSummary(flown, policy));
-}
 
 void PrintProof(const Plan& plan) {
   if (plan.optimal) {
@@ -64,8 +51,8 @@ EpisodeFigures FlyEpisodes(const EvaluateOptions& options, const ChosenPolicy& c
     result.seeds.push_back(EvaluationSeed(options.seed.value_or(schedule.seed()), i));
     const FlownPolicy flown = FlyPolicy(options.choice, chosen, result.seeds.back());
     result.figures.emplace_back(world.description().figures.size());
-    world.Judge(flown.flight, result.figures.back());
-    result.succeeded.push_back(world.Succeeded(flown.flight));
+    world.Judge(flown.episode, result.figures.back());
+    result.succeeded.push_back(world.Succeeded(flown.episode));
   }
   return result;
 }
@@ -116,13 +103,15 @@ std::string EpisodesJson(const WorldDescription& world, const EpisodeFigures& ep
   return json.dump(2);
 }
 
-/// A single flight tells everything about a policy in the UAV's world.
-int EvaluateFlight(const UavWorld& world, const EvaluateOptions& options, const ChosenPolicy& chosen) {
+/// Without chance, a single episode tells everything about a policy.
+int EvaluateOnce(const EvaluateOptions& options, const ChosenPolicy& chosen) {
+  const std::string& policy = options.choice.policy;
   const FlownPolicy flown = FlyPolicy(options.choice, chosen);
+  const EpisodeAccount account = flown.world().Tell(flown.episode);
   if (options.format == "json") {
-    fmt::print("{}\n", FlightJson(world, flown.flight, options.choice.policy, flown.plan));
+    fmt::print("{}\n", EpisodeJson(account, policy, flown.plan));
   } else {
-    PrintFlight(world, flown, options.choice.policy);
+    fmt::print("{}\n{}\n", StepTable(account), EpisodeSummary(flown, policy));
     if (flown.plan) {
       PrintProof(*flown.plan);
     }
@@ -133,8 +122,8 @@ int EvaluateFlight(const UavWorld& world, const EvaluateOptions& options, const 
 int Evaluate(const EvaluateOptions& options) {
   const ChosenPolicy chosen = ReadChoice(options.choice);
   const World& world = chosen.experiment.world();
-  if (const UavWorld* uav = AsUavWorld(world)) {
-    return EvaluateFlight(*uav, options, chosen);
+  if (!world.description().random) {
+    return EvaluateOnce(options, chosen);
   }
   const EpisodeFigures episodes = FlyEpisodes(options, chosen);
   if (StopSignal::Requested()) {
@@ -153,7 +142,8 @@ int Evaluate(const EvaluateOptions& options) {
 void AddEvaluate(CLI::App& app, Command& command) {
   auto options = std::make_shared<EvaluateOptions>();
   CLI::App* evaluate = app.add_subcommand(
-      "evaluate", "Act greedily: show a UAV's flight slot by slot, or the figures of several episodes");
+      "evaluate",
+      "Act greedily: show an episode step by step or, in worlds with chance, the figures of several");
   AddPolicyOptions(*evaluate, options->choice);
   evaluate
       ->add_option("--episodes", options->episodes,

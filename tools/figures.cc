@@ -13,9 +13,8 @@
 #include "core/installation.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
-#include "report/figure_writer.h"
+#include "paper/figure_writer.h"
 #include "tools/subcommands.h"
-#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -70,7 +69,6 @@ std::string MeanGapText(const WrittenFigures& written) {
 
 int WriteFigures(const FiguresOptions& options) {
   const Experiment base = BaseExperiment(options);
-  RequireUavWorld(base.world(), "fresco figures");
   const PaperStudy study = MakePaperStudy(base, ScopeOf(options));
   const Path folder(options.out);
   CheckOutputFolder(folder);

@@ -8,17 +8,17 @@
 
 #include "bus/open_bus.h"
 #include "core/clock.h"
+#include "core/error.h"
 #include "core/identifier.h"
 #include "core/installation.h"
 #include "core/live_line.h"
 #include "core/signals.h"
 #include "msgs/channels.h"
-#include "msgs/flight_messages.h"
 #include "msgs/message_bus.h"
 #include "msgs/protocol_times.h"
+#include "msgs/worlds.h"
 #include "storage/policy.h"
 #include "tools/subcommands.h"
-#include "worlds/uav/uav_world.h"
 
 namespace fresco {
 namespace {
@@ -37,9 +37,8 @@ class FlightShow {
  public:
   FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
       : flown_(flown),
-        messages_(FlightMessages(RequireUavWorld(flown.world(), "fresco fly"), flown.flight,
-                                 FlightName(flown, options.choice.policy))),
-        field_(ScenarioMessages(flown.world())),
+        messages_(FlightMessages(flown.experiment, flown.episode, EpisodeName(flown, options.choice.policy))),
+        field_(ScenarioMessages(flown.experiment)),
         bus_(std::move(bus)),
         message_bus_(*bus_),
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
@@ -124,7 +123,11 @@ class FlightShow {
 /// 0.
 int FlyOverBus(const FlyOptions& options) {
   const ChosenPolicy chosen = ReadChoice(options.choice);
-  RequireUavWorld(chosen.experiment.world(), "fresco fly");
+  if (!HasFlights(chosen.experiment)) {
+    throw UsageError(
+        fmt::format("fresco fly: the world {} has no flights; only the UAV's world (scenario) has",
+                    chosen.experiment.world().description().name));
+  }
   const std::string url = options.lcm_url.empty() ? chosen.experiment.run().lcm_url() : options.lcm_url;
   std::unique_ptr<Bus> bus =
       OpenBus(url, options.bus);  // before the search for the optimum, which may take long
@@ -140,7 +143,7 @@ int FlyOverBus(const FlyOptions& options) {
   while (options.loop && whole) {
     whole = show.Show();
   }
-  fmt::print("{}\n", FlightSummary(flown, options.choice.policy));
+  fmt::print("{}\n", EpisodeSummary(flown, options.choice.policy));
   return whole || options.loop ? 0 : 1;
 }
 

@@ -102,8 +102,8 @@ int Train(TrainingRun& run, const WorldDescription& world, const std::filesystem
     fmt::print(stderr, "fresco: stopped; the training is complete, continue the search with: {}\n",
                run.ResumeCommand());
   } else if (text) {
-    fmt::print("\nlook at it: {}\n{}     {} evaluate --policy {}\n", (folder / "report.html").string(),
-               world.name == "uav" ? "fly it:" : "try it:", ProgramName(), folder.string());
+    fmt::print("\nlook at it: {}\ntry it:     {} evaluate --policy {}\n", (folder / "report.html").string(),
+               ProgramName(), folder.string());
   }
   return status == 0 ? 0 : 1;
 }

@@ -33,6 +33,10 @@ double Return(const Episode& episode) {
   return sum;
 }
 
+double GapPercent(double score, double least_score) {
+  return 100 * (score - least_score) / least_score;
+}
+
 int RandomAllowedAction(std::span<const uint8_t> mask, RandomStream& stream) {
   const auto allowed = static_cast<uint32_t>(std::count(mask.begin(), mask.end(), 1));
   FRESCO_CHECK(allowed > 0);

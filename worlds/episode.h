@@ -43,6 +43,10 @@ void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
 /// The sum of the rewards, without discount, added in their order.
 double Return(const Episode& episode);
 
+/// By how many percent a score is above the least possible one. If the latter is only a lower bound, the
+/// result says how large the gap is at most; whoever shows it must say so.
+double GapPercent(double score, double least_score);
+
 /// Draws one of the allowed actions, all alike; `mask` has 1 or 0 for each action. CHECKs that one is
 /// allowed.
 int RandomAllowedAction(std::span<const uint8_t> mask, RandomStream& stream);

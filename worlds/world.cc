@@ -1,5 +1,7 @@
 #include "worlds/world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -22,6 +24,15 @@ bool HasName(const Quantity& quantity) {
 
 }  // namespace
 
+std::string Title(const std::string& name) {
+  std::string title = name;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  if (title.ends_with("aoi")) {  // an acronym
+    title.replace(title.size() - 3, 3, "AoI");
+  }
+  return title;
+}
+
 void Environment::WriteMask(std::span<uint8_t> mask) const {
   std::fill(mask.begin(), mask.end(), uint8_t{1});
 }
@@ -40,6 +51,41 @@ World::World(WorldDescription description) : description_(std::move(description)
 void World::Judge(const Episode& episode, std::span<double> figures) const {
   FRESCO_CHECK(figures.size() == 1);
   figures[0] = Return(episode);
+}
+
+EpisodeAccount World::Tell(const Episode& episode) const {
+  EpisodeAccount account;
+  const bool succeeded = Succeeded(episode);
+  account.sentence = (succeeded ? "" : "not ") + Title(description_.success);
+  account.facts = {{description_.success, succeeded}, {"steps", int64_t{episode.transitions()}}};
+  std::vector<double> figures(description_.figures.size());
+  Judge(episode, figures);
+  for (size_t i = 0; i < figures.size(); ++i) {
+    const auto& [name, unit] = description_.figures[i];
+    account.sentence += fmt::format("{} {} {:.3f}{}{}", i == 0 ? ";" : ",", Title(name), figures[i],
+                                    unit.empty() ? "" : " ", unit);
+    account.facts.push_back({name, figures[i]});
+  }
+  account.steps_name = "episode";
+  account.columns = {"step"};
+  for (const Quantity& field : description_.state) {
+    account.columns.push_back(field.name);
+  }
+  account.columns.insert(account.columns.end(), {"action", "reward"});
+  for (size_t i = 0; i <= episode.actions.size(); ++i) {
+    std::vector<AccountValue> row = {static_cast<int64_t>(i)};
+    for (const float value : episode.state(i)) {
+      row.emplace_back(double{value});
+    }
+    if (i < episode.actions.size()) {
+      row.emplace_back(description_.actions[static_cast<size_t>(episode.actions[i])]);
+      row.emplace_back(double{episode.rewards[i]});
+    } else {
+      row.resize(account.columns.size());
+    }
+    account.steps.push_back(std::move(row));
+  }
+  return account;
 }
 
 Episode World::FlyReference(const std::string&) const {

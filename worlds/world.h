@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "worlds/episode_account.h"
 
 namespace fresco {
 
@@ -25,6 +26,9 @@ struct Quantity {
   std::string unit;
 };
 
+/// Returns a name for people: "average AoI" for "average_aoi".
+std::string Title(const std::string& name);
+
 /// A known policy, e.g. {"aoi", "AoI-based"}: its name in commands and files, and for people.
 struct ReferencePolicy {
   std::string name;
@@ -33,7 +37,7 @@ struct ReferencePolicy {
 
 /// What a world states about itself.
 struct WorldDescription {
-  std::string name;                  ///< of the kind of world, e.g. "uav"
+  std::string name;                  ///< of the kind of world, e.g. "cartpole"
   std::vector<Quantity> state;       ///< the fields of a state, 1 to kMaximumStateSize
   std::vector<std::string> actions;  ///< a name for each action, e.g. "push left"; 1 to kMaximumActions
   int observation_size = 0;          ///< inputs of the network, >= 1
@@ -120,6 +124,9 @@ class World {
   virtual void Judge(const Episode& episode, std::span<double> figures) const;
   /// Whether a complete episode succeeded.
   virtual bool Succeeded(const Episode& episode) const = 0;
+  /// Tells a complete episode. The default: success, number of steps and figures; for each state its number,
+  /// 0, 1, ..., its fields, the action taken in it and the reward, which the last state does not have.
+  virtual EpisodeAccount Tell(const Episode& episode) const;
 
   /// Known policies to compare an agent with; the default is none.
   virtual std::vector<ReferencePolicy> reference_policies() const { return {}; }

@@ -28,7 +28,7 @@ extern "C" {
 #endif
 
 /* The version of this file. A library of another version is refused. */
-#define FRESCO_WORLD_ABI_VERSION 1
+#define FRESCO_WORLD_ABI_VERSION 2
 
 /* A quantity for people. `name`: lower-case letters, digits and underscores, at most 63 characters, e.g.
  * "pole_angle". `unit`: e.g. "rad", at most 15 characters; null or "" if it has none. */
@@ -57,6 +57,8 @@ typedef struct fresco_world_description {
   double success_return;
   /* What an episode that succeeds does, e.g. "balanced"; as the name of a quantity. */
   const char* success;
+  /* 1 if the seed decides nothing, so that one episode says everything about a policy; otherwise 0. */
+  int32_t without_chance;
 } fresco_world_description;
 
 /* How a step ends an episode. */

@@ -76,6 +76,39 @@ class Plugin(FrescoTest):
                                          expect=1)
         self.assertIn("DIFFERENT when played again", output)
         self.assertIn("not functions of their seed and actions", errors)
+        for settings, status in (("no chance", 0), ("hidden chance", 1)):
+            _, errors = self.run_fresco("check", "--library", faulty, "--settings", settings, program="fresco-world",
+                                        expect=status)
+            self.assertEqual("10 of 10 episodes are others with another seed" in errors, status == 1, errors)
+
+    def test_a_world_without_chance_is_told_step_by_step(self):
+        """The test's plug-in: a reward of 1 for "go", and an end after six steps."""
+        faulty = pathlib.Path(os.environ["FRESCO_BUILD"]) / "tests" / "plugins" / "faulty_world.so"
+        config = self.config(f'plugin {{ library: "{faulty}" settings: "no chance" }}')
+        summary = self.train(17765, "run", config=config)
+        self.assertEqual(summary["score"], summary["return"])
+        output, _ = self.run_fresco("evaluate", "--policy", self.folder / "run", "--format", "json")
+        told = json.loads(output)
+        self.assertEqual(list(told), ["policy", "walked", "steps", "return", "episode"])
+        self.assertEqual((told["steps"], told["return"], told["walked"]),
+                         (6, summary["return"], summary["return"] >= 5))
+        *steps, last = told["episode"]
+        self.assertEqual(last, {"step": 6, "steps": 6, "seed": 0, "action": None, "reward": None})
+        self.assertEqual([step["step"] for step in steps], list(range(6)))
+        for step in steps:
+            self.assertEqual((step["steps"], step["seed"]), (step["step"], 0))
+            self.assertEqual(step["reward"], {"go": 1, "stay": 0}[step["action"]])
+        self.assertEqual(sum(step["reward"] for step in steps), told["return"])
+        output, _ = self.run_fresco("evaluate", "--policy", self.folder / "run")
+        header, *lines = output.splitlines()
+        self.assertEqual(header.split(), ["step", "steps", "seed", "action", "reward"])
+        self.assertEqual(lines[6].split(), ["6", "6", "0", "-", "-"])
+        self.assertEqual(lines[7], "")
+        walked = "walked" if told["walked"] else "not walked"
+        self.assertEqual(lines[8], f"{self.folder / 'run'}: {walked}; return {told['return']:.3f}")
+        self.assertNotIn("flight-data", (self.folder / "run" / "report.html").read_text())
+        _, errors = self.run_fresco("fly", "--policy", self.folder / "run", expect=2)
+        self.assertIn("the world faulty has no flights", errors)
 
     def test_a_failing_world_ends_actors_and_the_run_but_not_the_learner(self):
         faulty = pathlib.Path(os.environ["FRESCO_BUILD"]) / "tests" / "plugins" / "faulty_world.so"

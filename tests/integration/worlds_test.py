@@ -148,7 +148,7 @@ class Worlds(FrescoTest):
             _, errors = self.run_fresco(command, "--policy", "aoi", "--config", self.config, expect=2)
             self.assertIn("\"aoi\"", errors)
         _, errors = self.run_fresco("fly", "--policy", self.folder / "run", expect=2)
-        self.assertIn("only the UAV's world (scenario) has this; the world is cartpole", errors)
+        self.assertIn("the world cartpole has no flights; only the UAV's world (scenario) has", errors)
         _, errors = self.run_fresco("train", "--set", "cartpole.maximum_steps=9", "--out", self.folder / "no", expect=2)
         self.assertIn("is scenario", errors)
         self.assertFalse((self.folder / "no").exists())

@@ -62,6 +62,8 @@ void* Create(const char* settings, char* error, size_t error_size) {
   description.longest_episode = fault == "an endless episode" ? 100'001 : 10;
   description.discount = fault == "a discount of NaN" ? std::nan("") : 0.9;
   description.name = fault == "no name" ? nullptr : (fault == "a bad name" ? "Faulty World" : "faulty");
+  description.without_chance =
+      fault == "no chance" || fault == "hidden chance" ? 1 : (fault == "half a chance" ? 2 : 0);
   world->state[1].name = fault == "a field without a name" ? "" : "seed";
   world->actions[1] = fault == "an action without a name" ? nullptr : "stay";
   return world;
@@ -100,20 +102,22 @@ void WriteState(const Walk& walk, float* state, uint8_t* mask) {
 int32_t Reset(void* pointer, uint64_t seed, float* state, uint8_t* mask, char* error, size_t error_size) {
   Misbehave("reset");
   Walk& walk = *static_cast<Walk*>(pointer);
-  walk = {seed, 0};
+  walk = {fault == "no chance" ? 0 : seed, 0};
   WriteState(walk, state, mask);
   return Fails("reset", error, error_size) ? 0 : 1;
 }
 
-int32_t Step(void* pointer, int32_t action, double* reward, int32_t* ending, float* state, uint8_t* mask, char* error,
-             size_t error_size) {
+int32_t Step(void* pointer, int32_t action, double* reward, int32_t* ending, float* state, uint8_t* mask,
+             char* error, size_t error_size) {
   Walk& walk = *static_cast<Walk*>(pointer);
   ++walk.steps;
   if (walk.steps == 3) {
     Misbehave("step");
   }
   *reward = fault == "a reward of infinity" && walk.steps == 3 ? HUGE_VAL : (action == 0 ? 1 : 0);
-  *ending = fault == "a bad ending" && walk.steps == 3 ? 9 : (walk.steps == 6 && walk.seed % 2 == 0 ? FRESCO_TERMINAL : 0);
+  *ending = fault == "a bad ending" && walk.steps == 3
+                ? 9
+                : (walk.steps == 6 && walk.seed % 2 == 0 ? FRESCO_TERMINAL : 0);
   static int calls = 0;
   if (fault == "a clock") {
     *reward += ++calls;
@@ -130,6 +134,7 @@ const fresco_world_functions* fresco_world(void) {
 #else
   constexpr uint32_t kVersion = FRESCO_WORLD_ABI_VERSION;
 #endif
-  static const fresco_world_functions functions = {kVersion, Create, Destroy, Describe, Make, Release, Reset, Step};
+  static const fresco_world_functions functions = {kVersion, Create,  Destroy, Describe,
+                                                   Make,     Release, Reset,   Step};
   return &functions;
 }

@@ -44,6 +44,8 @@ TEST(Plugin, SaysWhatItsWorldIs) {
   EXPECT_EQ(description.world.success, "walked");
   EXPECT_EQ(description.success_return, 5);
   EXPECT_FALSE(description.world.repeatable);
+  EXPECT_TRUE(description.world.random);
+  EXPECT_FALSE(DescribePlugin(Spec("no chance")).world.random);
 }
 
 TEST(Plugin, DescriptionsSurviveJson) {
@@ -98,7 +100,7 @@ TEST(PluginRefused, IfItIsNone) {
   EXPECT_THAT(error_of("/proc/self/exe"), HasSubstr("can't be loaded"));
   EXPECT_THAT(error_of("/etc/passwd"), AllOf(HasSubstr("/etc/passwd"), HasSubstr("can't be loaded")));
   EXPECT_THAT(error_of(FRESCO_PLUGIN_FOLDER "/other_abi_world.so"),
-              AllOf(HasSubstr("version 2 of fresco/world.h"), HasSubstr("expected: version 1")));
+              AllOf(HasSubstr("version 3 of fresco/world.h"), HasSubstr("expected: version 2")));
 }
 
 TEST(PluginRefused, IfItsDescriptionIsAbsurd) {
@@ -108,6 +110,7 @@ TEST(PluginRefused, IfItsDescriptionIsAbsurd) {
       {"negative actions", "action_count is -1; allowed: 1 to 4000"},
       {"an endless episode", "longest_episode is 100001; allowed: 1 to 100000"},
       {"a discount of NaN", "discount is nan; allowed: 0 to 1"},
+      {"half a chance", "without_chance is 2; allowed: 0 to 1"},
       {"no name", "name or success"},
       {"a bad name", "name or success"},
       {"a field without a name", "field 1 of the state has no name"},
@@ -126,10 +129,13 @@ TEST(PluginRefused, IfItsDescriptionIsAbsurd) {
 TEST(PluginRefused, IfItCrashesOrHangsWhileItIsAsked) {
   EXPECT_THAT(ErrorOf([] { DescribePlugin(Spec("crash in create")); }),
               AllOf(HasSubstr("faulty_world.so"), HasSubstr("crashed (segmentation fault) in create()")));
-  EXPECT_THAT(ErrorOf([] { DescribePlugin(Spec("abort in describe")); }), HasSubstr("crashed (aborted) in describe()"));
+  EXPECT_THAT(ErrorOf([] { DescribePlugin(Spec("abort in describe")); }),
+              HasSubstr("crashed (aborted) in describe()"));
   EXPECT_THAT(ErrorOf([] { DescribePlugin(Spec("throw in create")); }),
               HasSubstr("threw an exception in create(): thrown on purpose"));
-  EXPECT_THAT(ErrorOf([] { DescribePlugin({kFaulty, "hang in describe", 0.1}); }),
+  EXPECT_THAT(ErrorOf([] {
+                DescribePlugin({kFaulty, "hang in describe", 0.1});
+              }),
               HasSubstr("did not return in time in describe()"));
   EXPECT_THAT(ErrorOf([] { DescribePlugin(Spec("exit in create")); }), HasSubstr("fresco-world"));
 }
@@ -165,7 +171,8 @@ TEST(PluginEndsTheProcess, IfItCrashesOrHangs) {
   constexpr int kStatus = static_cast<int>(ErrorKind::kPlugin);
   EXPECT_EXIT(Play(Spec("crash in step")), ::testing::ExitedWithCode(kStatus),
               "error: the plug-in .*faulty_world.so crashed \\(segmentation fault\\) in step\\(\\)");
-  EXPECT_EXIT(Play(Spec("abort in reset")), ::testing::ExitedWithCode(kStatus), "crashed \\(aborted\\) in reset\\(\\)");
+  EXPECT_EXIT(Play(Spec("abort in reset")), ::testing::ExitedWithCode(kStatus),
+              "crashed \\(aborted\\) in reset\\(\\)");
   EXPECT_EXIT(Play({kFaulty, "hang in step", 0.2}), ::testing::ExitedWithCode(kStatus),
               "did not return in time in step\\(\\)");
 }

@@ -39,6 +39,8 @@ Episode PlayPython(const PluginSpec& spec, uint64_t seed = 1) {
 TEST(PythonWorld, SaysWhatItIs) {
   const PluginDescription plain = DescribePlugin(Python("pole:CartPole"));
   EXPECT_EQ(plain.world.name, "cartpole");
+  EXPECT_TRUE(plain.world.random);
+  EXPECT_FALSE(DescribePlugin(Python("pole:StillPole")).world.random);
   ASSERT_EQ(plain.world.state.size(), 4u);
   EXPECT_EQ(plain.world.state[3].name, "observation_3");
   EXPECT_EQ(plain.world.actions, (std::vector<std::string>{"action 0", "action 1"}));

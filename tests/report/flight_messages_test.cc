@@ -7,11 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "msgs/experiment.h"
+#include "msgs/worlds.h"
 #include "report/result_display.h"
 #include "tests/msgs/message_samples.h"
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
-#include "worlds/cartpole/cartpole.h"
 #include "worlds/uav/aoi_figures.h"
 #include "worlds/uav/baselines.h"
 
@@ -29,7 +30,7 @@ Episode RandomFlight(const UavWorld& world, uint32_t index) {
 }
 
 void ExpectSameFlight(const UavWorld& world, const Episode& flight) {
-  const auto json = nlohmann::json::parse(FlightJson(world, flight, "p"));
+  const auto json = nlohmann::json::parse(EpisodeJson(world.Tell(flight), "p"));
   const std::vector<flight_t> messages = FlightMessages(world, flight, "p");
   ASSERT_EQ(messages.size(), json["flight"].size());
   double reward = 0;
@@ -112,8 +113,20 @@ TEST(ScenarioMessages, CarryEverySensorOnceAndInOrder) {
   }
 }
 
-TEST(ScenarioMessages, AreNoneInAnotherWorld) {
-  EXPECT_TRUE(ScenarioMessages(CartPole(500)).empty());
+TEST(ScenarioMessages, AreThoseOfTheUavsWorldAndNoneOfAnother) {
+  const Experiment uav = Experiment::Parse("", "the test");
+  EXPECT_TRUE(HasFlights(uav));
+  EXPECT_EQ(ScenarioMessages(uav).size(), 1);
+  const Episode flight = uav.world().FlyReference("aoi");
+  EXPECT_EQ(FlightMessages(uav, flight, "aoi").size(), flight.states.size() / uav.world().state_size());
+  const Experiment other = Experiment::Parse("cartpole {}", "the test");
+  EXPECT_FALSE(HasFlights(other));
+  EXPECT_TRUE(ScenarioMessages(other).empty());
+}
+
+TEST(FlightMessagesDeathTest, AreNotThereInAnotherWorld) {
+  const Experiment other = Experiment::Parse("cartpole {}", "the test");
+  EXPECT_DEATH(FlightMessages(other, {}, "p"), "HasFlights");
 }
 
 TEST(ScenarioMessages, TellTheFieldAndTheFlight) {

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "report/drawings.h"
 #include "tests/report/picture_files.h"
 #include "tests/worlds/test_scenarios.h"
+#include "tests/worlds/walk_world.h"
 #include "worlds/uav/baselines.h"
 #include "worlds/uav/flight.h"
 
@@ -75,8 +77,8 @@ class ReportTest : public testing::Test {
     contents.summary = "What came out of it.";
     contents.tables = {{"Results", {"flight", "total AoI"}, {{"DQN", "2799"}, {"AoI-based", "3684"}}}};
     contents.figures = {{"Learning", "Loss by update.", kPlot}, {"Gap", "", kPlot}};
-    contents.flights = {{"AoI-based", FlyBaseline(world_, BaselineKind::kAoi)},
-                        {"distance-based", FlyBaseline(world_, BaselineKind::kDistance)}};
+    contents.episodes = {{"AoI-based", FlyBaseline(world_, BaselineKind::kAoi)},
+                         {"distance-based", FlyBaseline(world_, BaselineKind::kDistance)}};
     contents.world = &world_;
     contents.configuration = "scenario {\n  slots: 70\n}\n";
     return contents;
@@ -109,6 +111,21 @@ TEST_F(ReportTest, LeavesOutWhatIsEmpty) {
   EXPECT_THAT(page, Not(HasSubstr("id=\"flight-data\"")));
 }
 
+/// A plug-in may have any name.
+TEST_F(ReportTest, DrawsNoEpisodesOfAnotherWorldWhateverItsName) {
+  WorldDescription description = WalkWorld::Description();
+  description.name = world_.description().name;
+  const WalkWorld walk(description);
+  EXPECT_EQ(DrawingOf(walk), nullptr);
+  ASSERT_NE(DrawingOf(world_), nullptr);
+  EXPECT_EQ(DrawingOf(world_)->id, "flights");
+  ReportContents contents = Everything();
+  contents.world = &walk;
+  const std::string page = ReportPage(contents);
+  EXPECT_THAT(Matches(page, "<section id=\"([a-z]+)\""), ElementsAre("numbers", "figures", "configuration"));
+  EXPECT_THAT(page, Not(HasSubstr("FlightPlayer")));
+}
+
 TEST_F(ReportTest, SaysWhatAoiIsOnlyInTheUavsWorld) {
   EXPECT_THAT(ReportPage(Everything()), HasSubstr("AoI is age of information"));
   ReportContents contents;
@@ -129,13 +146,13 @@ TEST_F(ReportTest, CarriesEverySlotOfEveryFlight) {
   const Json flights = Json::parse(FlightData(ReportPage(contents)))["flights"];
   ASSERT_EQ(flights.size(), 2);
   for (size_t number = 0; number < 2; ++number) {
-    const ReportFlight& expected = contents.flights[number];
+    const ReportEpisode& expected = contents.episodes[number];
     EXPECT_EQ(flights[number]["policy"], expected.name);
     EXPECT_EQ(flights[number]["outcome"], "arrived");
     ASSERT_EQ(flights[number]["flight"].size(), 70);
     for (size_t slot = 0; slot < 70; ++slot) {
-      const UavState state = StateIn(expected.flight, slot);
-      const Action action = ActionIn(*contents.world, expected.flight, slot);
+      const UavState state = StateIn(expected.episode, slot);
+      const Action action = ActionIn(world_, expected.episode, slot);
       const Json& found = flights[number]["flight"][slot];
       EXPECT_EQ(found["slot"], slot + 1);
       EXPECT_EQ(found["column"], state.cell.column);
@@ -164,9 +181,9 @@ TEST_F(ReportTest, SaysWhatIsCollected) {
 
 TEST_F(ReportTest, ASensorScheduledOutOfCoverageIsNotCollected) {
   ReportContents contents = Everything();
-  contents.flights = {{"in vain", Fly(world_, [](const UavEnvironment&) {
-                         return Action{Move::kNorth, 3};  // sensor 3 is 20 cells away at first
-                       })}};
+  contents.episodes = {{"in vain", Fly(world_, [](const UavEnvironment&) {
+                          return Action{Move::kNorth, 3};  // sensor 3 is 20 cells away at first
+                        })}};
   const Json data = Json::parse(FlightData(ReportPage(contents)));
   EXPECT_EQ(data["flights"][0]["flight"][0]["scheduled"], 3);
   EXPECT_EQ(data["flights"][0]["flight"][0]["collected"], false);
@@ -199,7 +216,7 @@ TEST_F(ReportTest, NoTextBecomesMarkup) {
   contents.title = contents.summary = contents.configuration = harm;
   contents.tables = {{harm, {harm, harm}, {{harm, harm}, {harm, harm}}}};
   contents.figures = {{harm, harm, kPlot + harm}, {harm, "", kPlot}};
-  contents.flights[0].name = contents.flights[1].name = harm;
+  contents.episodes[0].name = contents.episodes[1].name = harm;
   const std::string page = ReportPage(contents);
   for (const char* markup : {"<script", "</script", "<!--", "</title"}) {
     EXPECT_EQ(Count(page, markup), Count(ReportPage(harmless), markup)) << markup;
@@ -210,7 +227,7 @@ TEST_F(ReportTest, NoTextBecomesMarkup) {
 
 TEST_F(ReportTest, ANameThatIsNoUtf8StillGivesAPage) {
   ReportContents contents = Everything();
-  contents.flights[0].name = "\xff run";
+  contents.episodes[0].name = "\xff run";
   EXPECT_EQ(Json::parse(FlightData(ReportPage(contents)))["flights"][0]["policy"], "\uFFFD run");
 }
 

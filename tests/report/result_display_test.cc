@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/cartpole/cartpole.h"
@@ -141,10 +142,39 @@ TEST(PercentText, IsNeverAllOrNothingWithoutBeingIt) {
   EXPECT_EQ(PercentText(1 - 1e-6), "99.9999 %");
 }
 
-TEST(Title, IsAQuantityInWords) {
-  EXPECT_EQ(Title("average_aoi"), "average AoI");
-  EXPECT_EQ(Title("return"), "return");
-  EXPECT_EQ(Title("swung_up"), "swung up");
+/// An account with a value of every type.
+EpisodeAccount SmallAccount() {
+  EpisodeAccount account;
+  account.facts = {{"won", true}, {"steps", int64_t{1}}, {"score", 0.1}, {"how", "slowly"}};
+  account.steps_name = "moves";
+  account.columns = {"step", "height_m", "action", "ages", "reward"};
+  account.steps = {{int64_t{0}, 2.5, "up", std::vector<int64_t>{1, 20}, -3.0},
+                   {int64_t{10}, 1.0 / 3, {}, std::vector<int64_t>{}, {}}};
+  return account;
+}
+
+TEST(EpisodeJson, HasTheFactsAndStepsOfTheAccountInTheirOrder) {
+  EXPECT_EQ(nlohmann::ordered_json::parse(EpisodeJson(SmallAccount(), "p")).dump(),
+            R"({"policy":"p","won":true,"steps":1,"score":0.1,"how":"slowly","moves":[)"
+            R"({"step":0,"height_m":2.5,"action":"up","ages":[1,20],"reward":-3.0},)"
+            R"({"step":10,"height_m":0.3333333333333333,"action":null,"ages":[],"reward":null}]})");
+}
+
+TEST(EpisodeJson, HasTheBoundsOfAPlan) {
+  Plan plan;
+  plan.optimal = true;
+  plan.lower_bound_total_aoi = 3;
+  const auto json = nlohmann::json::parse(EpisodeJson(SmallAccount(), "optimal", plan));
+  EXPECT_EQ(json["optimal"], true);
+  EXPECT_EQ(json["lower_bound_total_aoi"], 3);
+  EXPECT_TRUE(json.contains("lower_bound_average_aoi"));
+}
+
+TEST(StepTable, HasNumbersAtTheRight) {
+  EXPECT_EQ(StepTable(SmallAccount()),
+            "step  height_m  action  ages  reward\n"
+            "   0       2.5  up      1 20      -3\n"
+            "  10  0.333333  -                  -\n");
 }
 
 using Rows = std::vector<std::vector<std::string>>;

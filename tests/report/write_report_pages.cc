@@ -43,12 +43,12 @@ std::string ReadText(const std::filesystem::path& path) {
 
 /// Returns a line for each slot: flight, slot, column, row, move, scheduled, collected, then the AoI of every
 /// sensor.
-std::string Csv(const UavWorld& world, const std::vector<ReportFlight>& flights) {
+std::string Csv(const UavWorld& world, const std::vector<ReportEpisode>& flights) {
   std::string csv;
-  for (const ReportFlight& flight : flights) {
-    for (size_t slot = 0; slot <= flight.flight.actions.size(); ++slot) {
-      const UavState state = StateIn(flight.flight, slot);
-      const Action action = ActionIn(world, flight.flight, slot);
+  for (const ReportEpisode& flight : flights) {
+    for (size_t slot = 0; slot <= flight.episode.actions.size(); ++slot) {
+      const UavState state = StateIn(flight.episode, slot);
+      const Action action = ActionIn(world, flight.episode, slot);
       const bool collected = action.schedule > 0 && world.Covers(state.cell, action.schedule - 1);
       csv +=
           fmt::format("{},{},{},{},{},{},{},{}\n", flight.name, state.slot, state.cell.column, state.cell.row,
@@ -58,41 +58,42 @@ std::string Csv(const UavWorld& world, const std::vector<ReportFlight>& flights)
   return csv;
 }
 
-std::vector<std::string> FlightRow(const UavWorld& world, const ReportFlight& flight) {
-  const AoiFigures figures = Figures(world, flight.flight);
+std::vector<std::string> FlightRow(const UavWorld& world, const ReportEpisode& flight) {
+  const AoiFigures figures = Figures(world, flight.episode);
   return {flight.name, fmt::format("{:.3f}", figures.average_aoi), fmt::format("{}", figures.total_aoi),
-          fmt::format("{:.0f}", ResidualEnergy(world, flight.flight))};
+          fmt::format("{:.0f}", ResidualEnergy(world, flight.episode))};
 }
 
-void WritePage(const std::filesystem::path& folder, const std::string& name, const ReportContents& contents) {
+void WritePage(const std::filesystem::path& folder, const std::string& name, const UavWorld& world,
+               ReportContents contents) {
+  contents.world = &world;
   WriteText(folder / (name + ".html"), ReportPage(contents));
-  WriteText(folder / (name + ".csv"), Csv(*contents.world, contents.flights));
+  WriteText(folder / (name + ".csv"), Csv(world, contents.episodes));
 }
 
 void WriteRun(const std::filesystem::path& folder, const Experiment& experiment, const std::string& svg) {
   const UavWorld& world = RequireUavWorld(experiment.world(), "a report of flights");
   ReportContents contents;
-  contents.world = &world;
   contents.title = "Three sensors, R = 100 m";
   contents.summary =
       "The exact optimum of the paper's field beside its two comparison algorithms: 70 slots of a second on "
       "a grid of 20 by 20 cells, from the middle of the southern edge to the middle of the northern one.";
-  contents.flights = {{"exact optimum", PlanOptimally(world).flight},
-                      {"AoI-based", FlyBaseline(world, BaselineKind::kAoi)},
-                      {"distance-based", FlyBaseline(world, BaselineKind::kDistance)}};
+  contents.episodes = {{"exact optimum", PlanOptimally(world).flight},
+                       {"AoI-based", FlyBaseline(world, BaselineKind::kAoi)},
+                       {"distance-based", FlyBaseline(world, BaselineKind::kDistance)}};
   contents.tables = {{"Flights", {"flight", "average AoI", "total AoI", "energy left (J)"}, {}},
                      {"Field",
                       {},
                       {{"sensors", std::to_string(world.sensors())},
                        {"slots", std::to_string(world.scenario().slots)},
                        {"covered within", fmt::format("{} m", world.scenario().coverage_radius_m)}}}};
-  for (const ReportFlight& flight : contents.flights) {
+  for (const ReportEpisode& flight : contents.episodes) {
     contents.tables.front().rows.push_back(FlightRow(world, flight));
   }
   contents.figures = {{"One figure", "The same drawing twice: its ids must not clash.", svg},
                       {"The same figure again", "", svg}};
   contents.configuration = experiment.Text();
-  WritePage(folder, "run", contents);
+  WritePage(folder, "run", world, contents);
 }
 
 void WriteLarge(const std::filesystem::path& folder) {
@@ -105,26 +106,24 @@ void WriteLarge(const std::filesystem::path& folder) {
   scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, 250, 7);
   const UavWorld world(scenario);
   ReportContents contents;
-  contents.world = &world;
   contents.title = "250 sensors, 1000 slots";
-  contents.flights = {{"AoI-based", FlyBaseline(world, BaselineKind::kAoi)},
-                      {"distance-based", FlyBaseline(world, BaselineKind::kDistance)}};
-  WritePage(folder, "large", contents);
+  contents.episodes = {{"AoI-based", FlyBaseline(world, BaselineKind::kAoi)},
+                       {"distance-based", FlyBaseline(world, BaselineKind::kDistance)}};
+  WritePage(folder, "large", world, contents);
 }
 
 void WriteHarmful(const std::filesystem::path& folder, const Scenario& scenario) {
   const UavWorld world(scenario);
   const std::string harm = "\"'></title></script><script>window.harmed = true</script><!-- {{script}} &amp;";
   ReportContents contents;
-  contents.world = &world;
   contents.title = contents.summary = contents.configuration = harm;
-  contents.flights = {{harm, FlyBaseline(world, BaselineKind::kAoi)}};
+  contents.episodes = {{harm, FlyBaseline(world, BaselineKind::kAoi)}};
   contents.tables = {{harm, {harm}, {{harm}}}};
   contents.figures = {
       {harm, harm, "<svg xmlns=\"http://www.w3.org/2000/svg\"><script>top.harmed = true</script></svg>"},
       {"not closed", "", "<svg xmlns=\"http://www.w3.org/2000/svg\"><g></svg>"},
       {"empty", "", ""}};
-  WritePage(folder, "harmful", contents);
+  WritePage(folder, "harmful", world, contents);
 }
 
 }  // namespace

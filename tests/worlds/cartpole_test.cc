@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/support/allocation_count.h"
+#include "tests/worlds/facts.h"
 #include "tests/worlds/play.h"
 
 namespace fresco {
@@ -318,6 +319,27 @@ TEST(Return, IsTheSumOfTheRewardsInDouble) {
   EXPECT_EQ(Return(episode), 0);
   episode.rewards = {1e8f, 1, -1e8f, 0.5f};
   EXPECT_EQ(Return(episode), 1.5);
+}
+
+TEST(CartPole, IsToldStepByStep) {
+  const CartPole world(7);
+  const Episode episode = Play(world, 3, [](std::span<const float>) { return 1; });
+  const EpisodeAccount account = world.Tell(episode);
+  EXPECT_EQ(account.sentence, "balanced; return 7.000");
+  EXPECT_THAT(account.facts,
+              ElementsAre(IsFact("balanced", true), IsFact("steps", int64_t{7}), IsFact("return", 7.0)));
+  EXPECT_THAT(account.columns,
+              ElementsAre("step", "position", "velocity", "angle", "angular_velocity", "action", "reward"));
+  ASSERT_EQ(account.steps.size(), 8);
+  for (size_t i = 0; i < 8; ++i) {
+    ASSERT_EQ(account.steps[i].size(), 7);
+    EXPECT_EQ(account.steps[i][0], AccountValue(static_cast<int64_t>(i)));
+    for (size_t field = 0; field < 4; ++field) {
+      EXPECT_EQ(account.steps[i][1 + field], AccountValue(double{episode.state(i)[field]}));
+    }
+    EXPECT_EQ(account.steps[i][5], i < 7 ? AccountValue("push right") : AccountValue());
+    EXPECT_EQ(account.steps[i][6], i < 7 ? AccountValue(1.0) : AccountValue());
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/worlds/facts.h"
 #include "tests/worlds/test_scenarios.h"
 #include "tests/worlds/walk_world.h"
 #include "worlds/uav/aoi_figures.h"
@@ -82,6 +83,50 @@ TEST(UavWorld, HasItsCellsAsPlacesAndLeadsToThem) {
     EXPECT_EQ(range.end - range.first, world.sensors() + 1);
   }
   EXPECT_EQ(drawn.size(), 11u * 20u);
+}
+
+/// Two slots of flight and a hover. Sensor 1 is collected in the first slot: its AoI is 1, 1, 2, 3; that of
+/// sensor 2 is 1, 2, 3, 4.
+TEST(UavWorld, TellsAFlightSlotBySlot) {
+  Scenario scenario = TableOneScenario();
+  scenario.columns = 3;
+  scenario.rows = 2;
+  scenario.slots = 4;
+  scenario.start = {0, 0};
+  scenario.stop = {1, 1};
+  scenario.sensors = {{0, 0, 1}, {0, 0, 3}};
+  const UavWorld world(scenario);
+  const std::vector<Action> actions = {{Move::kNorth, 1}, {Move::kEast, 0}, {Move::kHover, 0}};
+  const EpisodeAccount account = world.Tell(Fly(world, [&](const UavEnvironment& environment) {
+    return actions[static_cast<size_t>(environment.state().slot) - 1];
+  }));
+  const double residual_j =
+      scenario.initial_energy_j - 2 * world.flying_energy_j() - world.hovering_energy_j();
+  EXPECT_NEAR(residual_j, 21554.43, 0.01);
+  EXPECT_EQ(account.sentence, "arrived; average AoI 2.312 slots, total AoI 17, 21554 J left");
+  EXPECT_THAT(account.facts,
+              ElementsAre(IsFact("arrived", true), IsFact("outcome", "arrived"), IsFact("slots", int64_t{4}),
+                          IsFact("total_aoi", int64_t{17}), IsFact("average_aoi", (7 + 3 * 10) / 4.0 / 4),
+                          IsFact("sum_aoi", 4.25), IsFact("residual_energy_j", residual_j)));
+  EXPECT_EQ(account.steps_name, "flight");
+  EXPECT_THAT(account.columns, ElementsAre("slot", "column", "row", "move", "scheduled", "aoi"));
+  const auto line = [](int64_t slot, int64_t column, int64_t row, const char* move, int64_t scheduled,
+                       const std::vector<int64_t>& aoi) {
+    return std::vector<AccountValue>{slot, column, row, move, scheduled, aoi};
+  };
+  EXPECT_THAT(account.steps,
+              ElementsAre(line(1, 0, 0, "north", 1, {1, 1}), line(2, 0, 1, "east", 0, {1, 2}),
+                          line(3, 1, 1, "hover", 0, {2, 3}), line(4, 1, 1, "hover", 0, {3, 4})));
+}
+
+TEST(UavWorld, TellsHowAFlightFailed) {
+  const UavWorld world(TableOneScenario());
+  const EpisodeAccount account = world.Tell(Fly(world, [](const UavEnvironment&) {
+    return Action{Move::kSouth, 0};
+  }));
+  EXPECT_THAT(account.sentence, testing::StartsWith("out of time; "));
+  EXPECT_THAT(account.facts[0], IsFact("arrived", false));
+  EXPECT_THAT(account.facts[1], IsFact("outcome", "out of time"));
 }
 
 TEST(UavWorld, IsKnownAmongOtherWorlds) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "tests/worlds/facts.h"
 #include "tests/worlds/test_scenarios.h"
 #include "tests/worlds/walk_world.h"
 
@@ -35,6 +36,37 @@ TEST(World, AllowsEveryActionAndHasNoPlacesUnlessItSaysSo) {
   world.NewEnvironment()->WriteMask(mask);
   EXPECT_THAT(mask, testing::Each(1));
   EXPECT_FALSE(world.has_places());
+}
+
+TEST(Title, IsAQuantityInWords) {
+  EXPECT_EQ(Title("average_aoi"), "average AoI");
+  EXPECT_EQ(Title("return"), "return");
+  EXPECT_EQ(Title("swung_up"), "swung up");
+}
+
+TEST(World, TellsAnEpisodeStepByStep) {
+  const WalkWorld world;
+  Episode episode;
+  ASSERT_TRUE(FlyActions(world, 9, std::vector<int16_t>{8, 8}, episode));
+  const EpisodeAccount account = world.Tell(episode);
+  EXPECT_EQ(account.sentence, "not stayed on the line; last place 25.000");
+  EXPECT_THAT(account.facts, testing::ElementsAre(IsFact("stayed_on_the_line", false),
+                                                  IsFact("steps", int64_t{2}), IsFact("last_place", 25.0)));
+  EXPECT_EQ(account.steps_name, "episode");
+  EXPECT_THAT(account.columns, testing::ElementsAre("step", "place", "steps", "action", "reward"));
+  using Row = std::vector<AccountValue>;
+  EXPECT_THAT(account.steps, testing::ElementsAre(Row{int64_t{0}, 9.0, 0.0, "8", 17.0},
+                                                  Row{int64_t{1}, 17.0, 1.0, "8", 25.0},
+                                                  Row{int64_t{2}, 25.0, 2.0, {}, {}}));
+}
+
+TEST(World, TellsTheUnitOfAFigure) {
+  WorldDescription description = WalkWorld::Description();
+  description.figures = {{"last_place", "m"}};
+  const WalkWorld world(description);
+  Episode episode;
+  ASSERT_TRUE(FlyActions(world, 2, std::vector<int16_t>(5, 1), episode));
+  EXPECT_EQ(world.Tell(episode).sentence, "stayed on the line; last place 7.000 m");
 }
 
 TEST(World, TakesADescriptionAtItsLimits) {

@@ -44,8 +44,4 @@ AoiFigures Figures(const UavWorld& world, const Episode& episode) {
   return {sums.total, sums.weighted / slots, static_cast<double>(sums.total) / slots};
 }
 
-double GapPercent(double average_aoi, double least_average_aoi) {
-  return 100 * (average_aoi - least_average_aoi) / least_average_aoi;
-}
-
 }  // namespace fresco

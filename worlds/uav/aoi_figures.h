@@ -19,8 +19,4 @@ struct AoiFigures {
 /// collected any more until slot T, so that ending early never looks better.
 AoiFigures Figures(const UavWorld& world, const Episode& episode);
 
-/// By how many percent an average AoI is above the least possible one. If the latter is only a lower bound,
-/// the result says how large the gap is at most; whoever shows it must say so.
-double GapPercent(double average_aoi, double least_average_aoi);
-
 }  // namespace fresco

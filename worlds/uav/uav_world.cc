@@ -245,6 +245,32 @@ bool UavWorld::Succeeded(const Episode& episode) const {
   return OutcomeOf(episode) == Outcome::kArrived;
 }
 
+EpisodeAccount UavWorld::Tell(const Episode& flight) const {
+  const AoiFigures aoi = Figures(*this, flight);
+  const std::string outcome = OutcomeName(OutcomeOf(flight));
+  const double residual_j = ResidualEnergy(*this, flight);
+  EpisodeAccount account;
+  account.sentence = fmt::format("{}; average AoI {:.3f} slots, total AoI {}, {:.0f} J left", outcome,
+                                 aoi.average_aoi, aoi.total_aoi, residual_j);
+  account.facts = {{description().success, Arrived(flight)},
+                   {"outcome", outcome},
+                   {"slots", int64_t{flight.transitions() + 1}},
+                   {"total_aoi", aoi.total_aoi},
+                   {"average_aoi", aoi.average_aoi},
+                   {"sum_aoi", aoi.sum_aoi},
+                   {"residual_energy_j", residual_j}};
+  account.steps_name = "flight";
+  account.columns = {"slot", "column", "row", "move", "scheduled", "aoi"};
+  for (size_t i = 0; i <= flight.actions.size(); ++i) {
+    const UavState state = StateIn(flight, i);
+    const Action action = ActionIn(*this, flight, i);
+    account.steps.push_back({int64_t{state.slot}, int64_t{state.cell.column}, int64_t{state.cell.row},
+                             MoveName(action.move), int64_t{action.schedule},
+                             std::vector<int64_t>(state.aoi.begin(), state.aoi.end())});
+  }
+  return account;
+}
+
 std::vector<ReferencePolicy> UavWorld::reference_policies() const {
   return {{kAoiPolicy, "AoI-based"}, {kDistancePolicy, "distance-based"}};
 }

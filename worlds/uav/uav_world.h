@@ -74,6 +74,10 @@ class UavWorld : public World {
   void Observe(std::span<const float> state, std::span<float> observation) const override;
   void Judge(const Episode& episode, std::span<double> figures) const override;
   bool Succeeded(const Episode& episode) const override;
+  /// Tells a flight from the start: arrived, outcome, slots, total_aoi, average_aoi, sum_aoi and
+  /// residual_energy_j; for each slot of `flight` slot, column, row, move, scheduled, and aoi at its
+  /// beginning.
+  EpisodeAccount Tell(const Episode& flight) const override;
   /// The paper's two comparison algorithms (worlds/uav/baselines.h).
   std::vector<ReferencePolicy> reference_policies() const override;
   Episode FlyReference(const std::string& name) const override;

@@ -1,4 +1,4 @@
-#include "report/study_statistics.h"
+#include "paper/study_statistics.h"
 
 #include <fmt/format.h>
 

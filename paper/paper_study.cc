@@ -1,4 +1,4 @@
-#include "report/paper_study.h"
+#include "paper/paper_study.h"
 
 #include <fmt/format.h>
 
@@ -80,6 +80,7 @@ class StudyMaker {
 }  // namespace
 
 PaperStudy MakePaperStudy(const Experiment& base, const StudyScope& scope) {
+  RequireUavWorld(base.world(), "fresco figures");
   return StudyMaker(base, scope).Make();
 }
 

@@ -1,5 +1,5 @@
 // Compares the runs of the figures with the paper's axes, and with energies worked out by hand.
-#include "report/paper_study.h"
+#include "paper/paper_study.h"
 
 #include <gtest/gtest.h>
 

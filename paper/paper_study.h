@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "report/study.h"
+#include "paper/study.h"
 
 namespace fresco {
 
@@ -42,7 +42,8 @@ struct PaperStudy {
   std::vector<StudyPoint> points;
 };
 
-/// Lists the runs. `base` decides the grid, the agent and the schedule.
+/// Lists the runs. `base` decides the grid, the agent and the schedule. Throws UsageError if its world is not
+/// the UAV's.
 PaperStudy MakePaperStudy(const Experiment& base, const StudyScope& scope);
 
 /// Returns `base` with another energy budget and with the rotor of the figure.

@@ -1,6 +1,6 @@
 // Means and intervals by hand and from published tables. A run whose optimum is not proved has no gap, and is
 // part of no mean over gaps or optima.
-#include "report/study_statistics.h"
+#include "paper/study_statistics.h"
 
 #include <gtest/gtest.h>
 

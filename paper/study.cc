@@ -1,4 +1,4 @@
-#include "report/study.h"
+#include "paper/study.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include "processes/training_run.h"
 #include "storage/checkpoint_folder.h"
 #include "storage/summary.h"
-#include "worlds/uav/aoi_figures.h"
+#include "worlds/episode.h"
 
 namespace fresco {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "report/paper_study.h"
+#include "paper/paper_study.h"
 
 namespace fresco {
 

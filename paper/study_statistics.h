@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/csv.h"
+#include "paper/paper_study.h"
 #include "report/line_plot.h"
-#include "report/paper_study.h"
 #include "report/report.h"
 
 namespace fresco {

@@ -1,4 +1,4 @@
-#include "report/figure_writer.h"
+#include "paper/figure_writer.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -9,10 +9,10 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "report/flight_map.h"
+#include "paper/flight_map.h"
+#include "paper/study_statistics.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
-#include "report/study_statistics.h"
 #include "storage/policy.h"
 #include "worlds/uav/baselines.h"
 
@@ -223,11 +223,12 @@ class FigureWriter {
              rows);
     Draw(DrawLinePlot(LearningCurvePlot(curve)), "learning_curve", "Learning curve",
          "One greedy flight of every evaluated version of one run's network.");
-    for (const ReportFlight& flight : field.flights()) {
+    contents_.episodes = field.FlyEpisodes();
+    for (const ReportEpisode& flight : contents_.episodes) {
       const std::string file = FlightFile(flight.name);
-      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), world, flight.flight);
+      WriteFlightCsv(folder_ / fmt::format("{}.csv", file), world, flight.episode);
       const std::string title = "Flight: " + flight.name;
-      Draw(DrawFlightMap(title, world, flight.flight), file, title,
+      Draw(DrawFlightMap(title, world, flight.episode), file, title,
            "The path's colour is the slot; a dot joined with a sensor is a collection.");
     }
   }
@@ -261,8 +262,7 @@ class FigureWriter {
     ReportTable policies = PolicyTable(field.summary());
     policies.title = "One field, flown below";
     contents_.tables.push_back(std::move(policies));
-    contents_.flights = field.flights();
-    contents_.world = &RequireUavWorld(field.world(), "the figures");
+    contents_.world = &field.world();
     contents_.configuration = base_.Text();
     WriteFileAtomically(folder_ / "report.html", ReportPage(contents_));
   }

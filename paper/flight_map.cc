@@ -1,4 +1,4 @@
-#include "report/flight_map.h"
+#include "paper/flight_map.h"
 
 #include <fmt/format.h>
 
