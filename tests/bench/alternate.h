@@ -18,10 +18,15 @@ struct Speeds {
   std::vector<double> references;
 };
 
-/// Does `value`, then each of `references`, then `value` again, and so on for about `seconds`: five turns for
-/// each, of which the fastest counts. `value` gets half of the time, `references` share the other half. Every
-/// piece of work is done once before the first turn.
+/// Does `value`, then each of `references`, then `value` again, and so on for about `seconds`. Every turn
+/// takes 10 ms (less if there would be fewer than five of each, more if the work can't be done in parts), so
+/// that an interruption is as likely in each; the fastest of a work's turns counts. Every work is done once
+/// before that.
 Speeds Alternate(const Work& value, const std::vector<Work>& references, double seconds,
                  const std::function<int64_t()>& clock_us = MonotonicMicroseconds);
+
+/// The speed of a work that is repeated for `seconds`, but done once at least.
+double SpeedOf(const Work& work, double seconds,
+               const std::function<int64_t()>& clock_us = MonotonicMicroseconds);
 
 }  // namespace fresco

@@ -195,8 +195,13 @@ double CommittedPerSecond(const Experiment& experiment, double seconds) {
         std::filesystem::path("/dev/null")));
   }
   constexpr int64_t kWarmUpTransitions = 20'000;
-  while (learner.trainer().progress().transitions < kWarmUpTransitions) {
-    learner.Commit(0.05);
+  constexpr double kTurnS = 0.05;
+  constexpr int kMostTurns = 600;
+  for (int turn = 0; learner.trainer().progress().transitions < kWarmUpTransitions; ++turn) {
+    if (turn == kMostTurns) {
+      throw Failure("bus_transitions: the actors sent too little in half a minute");
+    }
+    learner.Commit(kTurnS);
   }
   const int64_t begin_us = MonotonicMicroseconds();
   const auto transitions = static_cast<double>(learner.Commit(seconds));
@@ -312,7 +317,11 @@ Results WeightsDelivery(double seconds) {
   const auto parameters = std::make_shared<const Vector>(learner.trainer().current());
   std::vector<std::byte> message(static_cast<size_t>(parameters->size()) * sizeof(float));
   constexpr int64_t kFirstVersions = 2;  // version 0 of both networks
-  for (int patience = 0; patience < 100 && !LastArrival(versions, kFirstVersions, learner); ++patience) {
+  constexpr int kMostTurns = 100;
+  for (int turn = 0; !LastArrival(versions, kFirstVersions, learner); ++turn) {
+    if (turn == kMostTurns) {
+      throw Failure("weights_delivery_ms: the actors did not get the first networks in half a minute");
+    }
   }
   learner.Commit(0.3);  // until all are flying
   std::vector<double> delivery_ms;

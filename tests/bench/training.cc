@@ -71,6 +71,10 @@ Results Training(double seconds) {
   options.batch_size = experiment.agent().batch_size();
   UpdateLoop loop(experiment.network_shape(), options);
   const int episodes = std::max(kFewestEpisodes, static_cast<int>(kEpisodesPerSecond * seconds));
+  const auto update = [&] {
+    loop.Step();
+    return 1.0;
+  };
   double busy = 0;
   double updates_per_s = 0;
   double alone_per_s = 0;
@@ -79,13 +83,7 @@ Results Training(double seconds) {
     const auto wall_s = updating.at("wall_s").get<double>();
     busy = std::max(busy, updating.at("training_thread_s").get<double>() / wall_s);
     updates_per_s = std::max(updates_per_s, updating.at("updates").get<double>() / wall_s);
-    const Speeds alone = Alternate(
-        [&] {
-          loop.Step();
-          return 1.0;
-        },
-        {}, seconds / kRounds);
-    alone_per_s = std::max(alone_per_s, alone.value);
+    alone_per_s = std::max(alone_per_s, SpeedOf(update, seconds / kRounds));
   }
   constexpr double kPercent = 100;
   return {{MoreIsBetter("train_busy", kPercent * busy, "%",

@@ -64,7 +64,7 @@ Results UpdateBesideRoof(const std::string& name, int batch, bool double_dqn, do
 }
 
 Results UpdateBesidePyTorch(double seconds) {
-  constexpr int kUpdatesPerRequest = 50;  // so that asking takes no time
+  constexpr int kUpdatesPerRequest = 8;  // so that asking takes no time, and about one turn
   std::string reason;
   const auto peer = PyTorchUpdates::Fastest(seconds / 20, reason);
   if (peer == nullptr) {
@@ -73,8 +73,10 @@ Results UpdateBesidePyTorch(double seconds) {
   UpdateLoop loop(PaperShape(), OptionsWith(200, false));
   const Speeds speeds = Alternate(
       [&] {
-        loop.Step();
-        return 1.0;
+        for (int i = 0; i < kUpdatesPerRequest; ++i) {
+          loop.Step();
+        }
+        return static_cast<double>(kUpdatesPerRequest);
       },
       {[&] {
         peer->Make(kUpdatesPerRequest);
