@@ -15,8 +15,6 @@
 namespace fresco {
 namespace {
 
-constexpr int kStepsPerCall = 20;
-
 /// An actor's work, with the same two networks in every order.
 class FlyingActor {
  public:
@@ -25,10 +23,11 @@ class FlyingActor {
         parameters_(std::move(parameters)),
         flyer_(experiment, experiment.run().environments_per_actor()) {}
 
-  /// Steps in every environment; returns how many transitions were encoded.
+  /// Flies until as many episodes have ended as there are environments; returns their transitions. Starts the
+  /// next one wherever one has ended.
   double Fly() {
     double transitions = 0;
-    for (int i = 0; i < kStepsPerCall; ++i) {
+    for (int ended = 0; ended < experiment_->run().environments_per_actor();) {
       while (flyer_.HasRoom()) {
         Order order;
         order.index = next_index_++;
@@ -37,6 +36,7 @@ class FlyingActor {
         flyer_.Start(order, parameters_, parameters_);
       }
       flyer_.Step([&](const Order&, OrderResult& result) {
+        ++ended;
         transitions += result.episode.transitions();
         SplitResult(experiment_->world(), result, 1, [&](transitions_t message) {
           Stamp(message, {1, experiment_->hash()}, WallMicroseconds());
@@ -67,12 +67,13 @@ Results ActorBesideRoof(double seconds) {
   MlpWorkspace target(shape, width);
   current.input().setRandom();
   target.input() = current.input();
+  constexpr int kPassesPerCall = 20;
   const Speeds speeds = Alternate([&] { return actor.Fly(); }, {[&] {
-                                    for (int i = 0; i < kStepsPerCall; ++i) {
+                                    for (int i = 0; i < kPassesPerCall; ++i) {
                                       mlp.Forward(Values(*parameters), width, current);
                                       mlp.Forward(Values(*parameters), width, target);
                                     }
-                                    return static_cast<double>(kStepsPerCall * width);
+                                    return static_cast<double>(kPassesPerCall * width);
                                   }},
                                   seconds);
   return {

@@ -47,6 +47,9 @@ constexpr char kBareUrl[] =
     "udpm://239.255.76.67:7882?ttl=0&recv_buf_size=4194304";  // as OpenLcmBus makes it
 constexpr char kBareChannel[] = "BARE";
 constexpr double kSecondsPerMicrosecond = 1e-6;
+/// Pauses of the bare senders. The learner gets as many windows of time as they do.
+constexpr int64_t kPausesUs[] = {0, 20, 50, 100, 200};
+constexpr int kWindows = std::size(kPausesUs);
 
 Experiment ExperimentWithoutUpdates(Settings more) {
   Settings settings = {{"schedule.minimum_replay_size", "100000000"},
@@ -185,7 +188,7 @@ EpisodeMessages MessagesOfEpisode(const World& world) {
   return {all_bytes / messages, static_cast<double>(count) / static_cast<double>(messages)};
 }
 
-/// The rate of a run of its own, after the first episodes.
+/// The rate of a run of its own, after the first episodes, in the fastest of several windows of `seconds`.
 double CommittedPerSecond(const Experiment& experiment, double seconds) {
   CommittingLearner learner(experiment);
   std::vector<std::unique_ptr<ChildProcess>> actors;
@@ -203,25 +206,29 @@ double CommittedPerSecond(const Experiment& experiment, double seconds) {
     }
     learner.Commit(kTurnS);
   }
-  const int64_t begin_us = MonotonicMicroseconds();
-  const auto transitions = static_cast<double>(learner.Commit(seconds));
-  return transitions / (static_cast<double>(MonotonicMicroseconds() - begin_us) * kSecondsPerMicrosecond);
+  double fastest = 0;
+  for (int window = 0; window < kWindows; ++window) {
+    const int64_t begin_us = MonotonicMicroseconds();
+    const auto transitions = static_cast<double>(learner.Commit(seconds));
+    const auto elapsed_us = static_cast<double>(MonotonicMicroseconds() - begin_us);
+    fastest = std::max(fastest, transitions / (elapsed_us * kSecondsPerMicrosecond));
+  }
+  return fastest;
 }
 
 Results BusTransitions(double seconds) {
   constexpr int kRounds = 3;
-  constexpr int64_t kPausesUs[] = {0, 20, 50, 100, 200};
   const Experiment experiment = ExperimentWithoutUpdates(
       {{"agent.hidden_layers", "8"}, {"schedule.window", "128"}, {"schedule.excursion_share", "0"}});
   const EpisodeMessages messages = MessagesOfEpisode(experiment.world());
-  const double turn_s = seconds / (2 * kRounds);
+  const double window_s = seconds / 10;  // long beside the time that queues and orders in flight last
   double committed = 0;
   double bare = 0;
   int64_t best_pause_us = 0;
   for (int round = 0; round < kRounds; ++round) {
-    committed = std::max(committed, CommittedPerSecond(experiment, turn_s));
+    committed = std::max(committed, CommittedPerSecond(experiment, window_s));
     for (const int64_t pause_us : kPausesUs) {
-      const double rate = BareMessagesPerSecond(messages.bytes, pause_us, turn_s / std::size(kPausesUs));
+      const double rate = BareMessagesPerSecond(messages.bytes, pause_us, window_s);
       if (rate > bare) {
         bare = rate;
         best_pause_us = pause_us;
