@@ -42,10 +42,8 @@ PyTorchUpdates::PyTorchUpdates(const std::string& kernels, double seconds) {
   for (const int descriptor : {requests[0], answers[1], nowhere}) {
     close(descriptor);
   }
-  const std::string line = ReadLine();
-  if (const size_t tab = line.find('\t'); tab != std::string::npos) {
-    updates_per_s_ = std::stod(line);
-    description_ = fmt::format("PyTorch {}, {}", line.substr(tab + 1), kernels);
+  if (const std::string way = ReadLine(); !way.empty()) {
+    description_ = fmt::format("PyTorch {}, {}", way, kernels);
   }
 }
 
@@ -54,26 +52,26 @@ PyTorchUpdates::~PyTorchUpdates() {
   close(answers_);
 }
 
-std::unique_ptr<PyTorchUpdates> PyTorchUpdates::Fastest(double seconds, std::string& reason) {
+std::vector<std::unique_ptr<PyTorchUpdates>> PyTorchUpdates::StartAll(double seconds, std::string& reason) {
   const std::string find = fmt::format(
       "{} -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec(\"torch\") is None)' 2>/dev/null",
       kPython);
   if (std::system(find.c_str()) != 0) {
     reason = "PyTorch is not installed: apt-get install --no-install-recommends python3-torch";
-    return nullptr;
+    return {};
   }
-  std::unique_ptr<PyTorchUpdates> fastest;
+  std::vector<std::unique_ptr<PyTorchUpdates>> all;
   for (const char* kernels : kKernels) {
     std::unique_ptr<PyTorchUpdates> one(new PyTorchUpdates(kernels, seconds));
-    if (one->updates_per_s_ > (fastest ? fastest->updates_per_s_ : 0)) {
-      fastest = std::move(one);
+    if (!one->description_.empty()) {
+      all.push_back(std::move(one));
     }
   }
-  if (fastest == nullptr) {
+  if (all.empty()) {
     reason = fmt::format("PyTorch made no update; see what {} says: {}/pytorch_update.py 0.1", kPython,
                          FRESCO_BENCH_FOLDER);
   }
-  return fastest;
+  return all;
 }
 
 void PyTorchUpdates::Make(int updates) {

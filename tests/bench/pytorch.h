@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/child_process.h"
 
@@ -11,9 +12,9 @@ namespace fresco {
 /// A process that makes updates by PyTorch.
 class PyTorchUpdates {
  public:
-  /// Starts one process for each set of kernels that PyTorch may use, lets each try its ways for `seconds`,
-  /// and returns the fastest; the others end. Null, with the cause in `reason`, if there is no PyTorch.
-  static std::unique_ptr<PyTorchUpdates> Fastest(double seconds, std::string& reason);
+  /// Starts one process for each set of kernels that PyTorch may use, and lets each find its fastest way,
+  /// which it tries for `seconds` each. Empty, with the cause in `reason`, if there is no PyTorch.
+  static std::vector<std::unique_ptr<PyTorchUpdates>> StartAll(double seconds, std::string& reason);
 
   ~PyTorchUpdates();
   PyTorchUpdates(const PyTorchUpdates&) = delete;
@@ -32,8 +33,7 @@ class PyTorchUpdates {
   int requests_ = -1;  // the end of the pipe to the process
   int answers_ = -1;   // the end of the pipe from it
   std::unique_ptr<ChildProcess> process_;
-  double updates_per_s_ = 0;  // when it tried its ways; 0: it could not
-  std::string description_;
+  std::string description_;  // empty: it ended
 };
 
 }  // namespace fresco
