@@ -12,6 +12,12 @@ int64_t Microseconds() {
   return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();
 }
 
+int64_t MicrosecondsOf(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return int64_t{time.tv_sec} * 1'000'000 + time.tv_nsec / 1000;
+}
+
 }  // namespace
 
 int64_t WallMicroseconds() {
@@ -23,9 +29,11 @@ int64_t MonotonicMicroseconds() {
 }
 
 int64_t ThreadProcessorMicroseconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return int64_t{time.tv_sec} * 1'000'000 + time.tv_nsec / 1000;
+  return MicrosecondsOf(CLOCK_THREAD_CPUTIME_ID);
+}
+
+int64_t ProcessProcessorMicroseconds() {
+  return MicrosecondsOf(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 int64_t AttentiveClock::Look(int64_t monotonic_us) {

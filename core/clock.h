@@ -16,6 +16,9 @@ int64_t MonotonicMicroseconds();
 /// the thread waits for a processor or for anything else.
 int64_t ThreadProcessorMicroseconds();
 
+/// The same of all threads of this process.
+int64_t ProcessProcessorMicroseconds();
+
 /// A clock for judging the silence of others: it advances only while its owner looks at it. Time in which the
 /// process was stopped, or its host asleep, is not time in which others said nothing. Not thread-safe.
 class AttentiveClock {

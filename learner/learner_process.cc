@@ -67,6 +67,9 @@ TrainerOutput LearnerProcess::Output() {
   };
   output.updated = [this] {
     constexpr int64_t kUpdatesPerReport = 16;
+    if (!updating_began_) {
+      updating_began_ = UpdatingClocks();
+    }
     if (trainer_.progress().updates % kUpdatesPerReport == 0) {
       Report();
     }
@@ -133,11 +136,23 @@ void LearnerProcess::Train() {
     }
     Report();
   }
+  if (updating_began_) {
+    const UpdatingFigures now = UpdatingClocks();
+    updating_ = {now.wall_us - updating_began_->wall_us, now.updates - updating_began_->updates,
+                 now.training_thread_us - updating_began_->training_thread_us,
+                 now.learner_us - updating_began_->learner_us};
+  }
   if (!trainer_.finished()) {
     spdlog::info("interrupted after {} updates", trainer_.progress().updates);
     WriteCheckpoint();
   }
   Report();
+}
+
+/// Everything since an arbitrary time. Call it on the training thread.
+UpdatingFigures LearnerProcess::UpdatingClocks() const {
+  return {MonotonicMicroseconds(), trainer_.progress().updates, ThreadProcessorMicroseconds(),
+          ProcessProcessorMicroseconds()};
 }
 
 /// Whether no result has arrived for run.patience_s. Logs an error if so.
@@ -213,7 +228,7 @@ void LearnerProcess::WriteResults() {
   folder_.WriteFinal(trainer_.current(), trainer_.progress());
   folder_.Finish();
   folder_.WriteSummary(SummaryJson({experiment_, options_.run_id, trainer_.finished(), wall_s_, trainer_,
-                                    node_.counters(), optimum, resumptions_, checkpoints_}));
+                                    node_.counters(), optimum, resumptions_, checkpoints_, updating_}));
 }
 
 MemoryNeed LearnerMemory(const Experiment& experiment) {

@@ -41,6 +41,7 @@ class LearnerProcess {
   void RefuseUsedBus();
   void Serve(std::stop_token stop);
   void Train();
+  UpdatingFigures UpdatingClocks() const;
   bool GivesUp() const;
   void BeginTraining();
   void WriteCheckpointIfDue();
@@ -64,7 +65,9 @@ class LearnerProcess {
   double wall_s_ = 0;         // wall time of the whole training, once it has ended
   int64_t next_checkpoint_us_ = 0;
   CheckpointFigures checkpoints_;
-  std::string finishing_;  // what it is busy with before it ends
+  std::optional<UpdatingFigures> updating_began_;  // the clocks at this process's first update
+  std::optional<UpdatingFigures> updating_;        // set at the end of the training
+  std::string finishing_;                          // what it is busy with before it ends
 };
 
 /// Returns the most memory that the learner needs: when the replay memory is full and a checkpoint is being

@@ -87,6 +87,16 @@ OrderedJson Counters(const BusCounters& counters) {
   return json;
 }
 
+OrderedJson Updating(const std::optional<UpdatingFigures>& updating) {
+  constexpr double kSecondsPerMicrosecond = 1e-6;
+  const auto seconds = [](int64_t us) { return kSecondsPerMicrosecond * static_cast<double>(us); };
+  return !updating ? OrderedJson()
+                   : OrderedJson({{"wall_s", seconds(updating->wall_us)},
+                                  {"updates", updating->updates},
+                                  {"training_thread_s", seconds(updating->training_thread_us)},
+                                  {"learner_s", seconds(updating->learner_us)}});
+}
+
 /// The evaluation that the run is judged by.
 const Evaluation* JudgedBy(const Trainer& trainer) {
   if (trainer.delivered()) {
@@ -190,6 +200,7 @@ std::string SummaryJson(const SummaryInputs& inputs) {
   json["checkpoints"] = {
       {"taken", inputs.checkpoints.taken},
       {"longest_pause_ms", 1e-3 * static_cast<double>(inputs.checkpoints.longest_pause_us)}};
+  json["updating"] = Updating(inputs.updating);
   json["software_version"] = kSoftwareVersion;
   return json.dump(2);
 }

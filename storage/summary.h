@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "msgs/experiment.h"
@@ -43,6 +44,15 @@ struct CheckpointFigures {
   int64_t longest_pause_us = 0;
 };
 
+/// What this process did from its first update to the end of the training: how long it took, how many updates
+/// it made, and the processor time of the training thread and of all threads of the learner.
+struct UpdatingFigures {
+  int64_t wall_us = 0;
+  int64_t updates = 0;
+  int64_t training_thread_us = 0;
+  int64_t learner_us = 0;
+};
+
 /// Everything that a summary is made of.
 struct SummaryInputs {
   const Experiment& experiment;
@@ -54,6 +64,7 @@ struct SummaryInputs {
   OptimumResult optimum = {};
   int resumptions = 0;  ///< how often the run was resumed
   CheckpointFigures checkpoints = {};
+  std::optional<UpdatingFigures> updating = {};  ///< none: it made no update, or is no learner
 };
 
 /// Returns the JSON object of summary.json.
@@ -65,6 +76,8 @@ struct SummaryInputs {
 ///    before that those by which the version was chosen. The name of the success, for example `arrived`, says
 ///    whether all of them succeeded.
 ///  - `baselines` has the same of each reference policy of the world.
+///  - `updating` has UpdatingFigures, in seconds; null if there are none. The training thread was busy for
+///    training_thread_s / wall_s of the time.
 /// Only worlds with a search for the optimum have the following:
 ///  - `optimum_search` says how the search ended (SearchEndName).
 ///  - `optimal_...` are the figures of the exact optimum; null if it is not proved.

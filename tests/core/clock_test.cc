@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 namespace fresco {
 namespace {
 
@@ -26,6 +28,17 @@ TEST(AttentiveClock, NeverGoesBack) {
   const int64_t begin_us = clock.Look(1'000);
   EXPECT_EQ(clock.Look(500), begin_us);
   EXPECT_EQ(clock.Look(600), begin_us + 100);
+}
+
+TEST(ProcessorTime, OfTheProcessIncludesThatOfItsThreads) {
+  const int64_t process_us = ProcessProcessorMicroseconds();
+  int64_t thread_us = 0;
+  std::thread([&] {
+    while (thread_us < 2'000) {
+      thread_us = ThreadProcessorMicroseconds();
+    }
+  }).join();
+  EXPECT_GE(ProcessProcessorMicroseconds() - process_us, 2'000);
 }
 
 TEST(RateMeter, TellsTheRateOfTheLastTimeOfAtLeastASecond) {

@@ -26,6 +26,11 @@ class Train(FrescoTest):
             self.assertLessEqual(SUMMARY_KEYS, set(summary))
             self.assertEqual(summary["episodes"], 400)
             self.assertTrue(summary["arrived"])
+            updating = summary["updating"]
+            self.assertEqual(updating["updates"], summary["updates"] - 1)  # since the first
+            self.assertLess(0, updating["training_thread_s"])
+            self.assertLessEqual(updating["training_thread_s"], updating["learner_s"])
+            self.assertLess(updating["wall_s"], summary["wall_s"])
         self.assertEqual(proved["optimal_total_aoi"], 2789)
         self.assertAlmostEqual(proved["gap_percent"], 100 * (proved["total_aoi"] / 2789 - 1), places=6)
         other = self.train(17301, "seed-2", "--seed", 2, *NO_SEARCH)

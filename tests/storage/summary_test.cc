@@ -255,11 +255,21 @@ TEST(CartPoleSummary, HasNothingOfAnOptimumOrBaselines) {
                                                     "checkpoints",
                                                     "staleness_updates",
                                                     "resumptions",
+                                                    "updating",
                                                     "software_version",
                                                     "evaluation_episodes"}));
   EXPECT_EQ(summary.at("world"), Json::parse(R"({"name": "cartpole", "success": "balanced",
     "figures": [{"name": "return", "unit": ""}]})"));
   EXPECT_TRUE(IsFinished(summary.dump()));
+}
+
+TEST(CartPoleSummary, GivesTheTimesOfUpdatingInSeconds) {
+  const FinishedRun run(SmallCartPole());
+  EXPECT_EQ(SummaryOf(run).at("updating"), Json());
+  SummaryInputs inputs{run.experiment, 1, true, 4.0, run.trainer, {}};
+  inputs.updating = {2'500'000, 1'000, 2'000'000, 3'000'000};
+  EXPECT_EQ(Json::parse(SummaryJson(inputs)).at("updating"),
+            Json::parse(R"({"wall_s": 2.5, "updates": 1000, "training_thread_s": 2, "learner_s": 3})"));
 }
 
 // In CartPole an episode's figure is the number of its steps, and it succeeds with the most of these.

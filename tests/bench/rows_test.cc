@@ -1,0 +1,127 @@
+// Rows: chosen, measured, printed and checked.
+#include "tests/bench/rows.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/error_of.h"
+
+namespace fresco {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+std::vector<Subject> Subjects(std::vector<double>* seconds = nullptr) {
+  const auto note = [seconds](double s) {
+    if (seconds != nullptr) {
+      seconds->push_back(s);
+    }
+  };
+  return {{{"fast", "slow"},
+           [=](double s) {
+             note(s);
+             return Results{{MoreIsBetter("fast", 30, "m/s", "a horse", 15),
+                             LessIsBetter("slow", 30, "ms", "light", 15)},
+                            {}};
+           }},
+          {{"missing"}, [=](double s) {
+             note(s);
+             return AllAbsent({"missing"}, "not installed");
+           }}};
+}
+
+Results Measured(const std::vector<std::string>& names) {
+  return MeasureRows(Subjects(), names, 1, [](const std::string&) {});
+}
+
+BenchHead SomeHead() {
+  return {"a processor", 2, "AVX2", "gcc 12 -O3", "abc1234"};
+}
+
+TEST(Rows, HaveARatioThatIsLargerTheBetter) {
+  EXPECT_EQ(MoreIsBetter("a", 30, "m/s", "", 15).ratio, 2);
+  EXPECT_EQ(LessIsBetter("a", 30, "ms", "", 15).ratio, 0.5);
+}
+
+TEST(Rows, AreSelectedByAPartOfTheirName) {
+  EXPECT_THAT(SelectRows(Subjects(), ".*"), ElementsAre("fast", "slow", "missing"));
+  EXPECT_THAT(SelectRows(Subjects(), "^s|ast"), ElementsAre("fast", "slow"));
+}
+
+TEST(Rows, AreNamedIfTheFilterMatchesNone) {
+  EXPECT_THAT(ErrorOf([] { SelectRows(Subjects(), "quick"); }),
+              HasSubstr("--filter: no row's name matches \"quick\"; the rows are fast, slow, missing"));
+  EXPECT_THAT(ErrorOf([] { SelectRows(Subjects(), "("); }),
+              HasSubstr("expected a regular expression, found \"(\""));
+}
+
+TEST(Rows, OfSubjectsThatAreNotAskedForAreNotMeasured) {
+  std::vector<double> seconds;
+  std::vector<std::string> progress;
+  const Results results = MeasureRows(Subjects(&seconds), {"slow"}, 0.25,
+                                      [&](const std::string& names) { progress.push_back(names); });
+  EXPECT_THAT(seconds, ElementsAre(0.25));
+  EXPECT_THAT(progress, ElementsAre("slow"));
+  ASSERT_EQ(results.rows.size(), 1u);
+  EXPECT_EQ(results.rows[0].name, "slow");
+  EXPECT_THAT(results.absent, IsEmpty());
+}
+
+TEST(Rows, AreAnObjectInJson) {
+  const auto json = nlohmann::json::parse(BenchJson(SomeHead(), Measured({"fast", "missing"})));
+  EXPECT_EQ(json, nlohmann::json::parse(R"({
+    "machine": {"processor": "a processor", "cores": 2, "instruction_set": "AVX2", "compiler": "gcc 12 -O3"},
+    "commit": "abc1234",
+    "rows": [{"name": "fast", "value": 30, "unit": "m/s", "reference": "a horse", "reference_value": 15, "ratio": 2}],
+    "absent": [{"name": "missing", "reason": "not installed"}]})"));
+}
+
+TEST(Rows, AreATableForPeople) {
+  EXPECT_EQ(BenchTable(SomeHead(), Measured({"fast", "slow", "missing"})),
+            "machine   a processor, 2 cores, AVX2\n"
+            "compiler  gcc 12 -O3\n"
+            "commit    abc1234\n\n"
+            "row        value  unit   reference   ratio  the reference is\n"
+            "fast       30.00  m/s        15.00   2.000  a horse\n"
+            "slow       30.00  ms         15.00   0.500  light\n"
+            "missing  absent: not installed\n");
+}
+
+TEST(RecordedRatios, AreReadFromAnObject) {
+  EXPECT_THAT(ReadRecordedRatios(R"({"slow": 0.5, "fast": 2})", "file", Subjects()),
+              ElementsAre(testing::Pair("slow", 0.5), testing::Pair("fast", 2.0)));
+}
+
+TEST(RecordedRatios, AreRefusedWithTheNameOfTheFile) {
+  const auto error = [](const std::string& text) {
+    return ErrorOf([&] { ReadRecordedRatios(text, "ratios.json", Subjects()); });
+  };
+  EXPECT_THAT(error("[]"), HasSubstr("ratios.json: expected a JSON object"));
+  EXPECT_THAT(error("{"), HasSubstr("ratios.json: expected a JSON object"));
+  EXPECT_THAT(error(R"({"fastt": 1})"),
+              HasSubstr("ratios.json: there is no row \"fastt\"; did you mean fast?"));
+  EXPECT_THAT(error(R"({"fast": "2"})"), HasSubstr("fast: expected a ratio above 0, found \"2\""));
+  EXPECT_THAT(error(R"({"fast": 0})"), HasSubstr("fast: expected a ratio above 0, found 0"));
+}
+
+TEST(RecordedRatios, AreFallenFromBelowEightyPercent) {
+  const Results results = Measured({"fast", "slow"});
+  EXPECT_THAT(FallenRows({{"fast", 2.49}, {"slow", 0.62}}, results), IsEmpty());
+  EXPECT_THAT(FallenRows({{"fast", 2.51}, {"slow", 0.62}}, results),
+              ElementsAre("fast: the ratio is 2.000, below 80 % of the recorded 2.510"));
+  EXPECT_THAT(FallenRows({{"fast", 1}}, Results{{MoreIsBetter("fast", 0, "", "", 0)}, {}}),
+              SizeIs(1));  // 0 / 0
+}
+
+TEST(RecordedRatios, AreFallenIfTheirRowIsAbsent) {
+  EXPECT_THAT(FallenRows({{"missing", 1}}, Measured({"missing"})),
+              ElementsAre("missing: absent: not installed; a ratio is recorded"));
+}
+
+}  // namespace
+}  // namespace fresco

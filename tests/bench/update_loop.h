@@ -1,0 +1,28 @@
+// Updates as the learner makes them, without anything else: sample from the replay memory, targets, forward,
+// backward, Adam. Not thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "training/dqn.h"
+#include "training/replay_memory.h"
+
+namespace fresco {
+
+class UpdateLoop {
+ public:
+  /// Fills a replay memory of 40,000 random transitions. `shape` has at least 8 outputs.
+  UpdateLoop(const MlpShape& shape, const DqnOptions& options, int threads = 1);
+
+  /// Makes one update.
+  void Step();
+
+ private:
+  ReplayMemory memory_;
+  std::unique_ptr<Dqn> dqn_;
+  MiniBatch batch_;
+  uint32_t updates_ = 0;
+};
+
+}  // namespace fresco
