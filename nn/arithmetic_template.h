@@ -72,13 +72,13 @@ inline __attribute__((always_inline)) void MultiplyTile(const Product& product, 
 #pragma GCC unroll 8
   for (int i = 0; i < kColumns; ++i) {
     float* result = product.result + (column + i) * product.result_stride + row;
-    const float* gate = product.gate + (column + i) * product.gate_stride + row;
 #pragma GCC unroll 8
     for (int height = 0; height < kHeight; ++height) {
       Register sum = sums[height][i];
       if (product.finish == Finish::kRelu) {
         sum = Lanes::KeepIfAboveZero(sum, sum);
       } else if (product.finish == Finish::kGate) {
+        const float* gate = product.gate + (column + i) * product.gate_stride + row;
         sum = Lanes::KeepIfAboveZero(load(gate, height), sum);
       }
       if (kWhole || height + 1 < kHeight) {
