@@ -88,7 +88,7 @@ class Spy:
 
     def __exit__(self, *_):
         self._process.terminate()
-        self._process.wait(10)
+        self._process.wait(60)  # Java may be starting, on a busy machine
         self._reader.join(10)
         self._process.stdout.close()
 
