@@ -42,13 +42,17 @@ std::vector<std::string> ReadyExperiments() {
 
 std::string ExperimentPath(const std::string& config) {
   std::error_code error;
-  if (std::filesystem::exists(config, error)) {
+  const std::filesystem::file_status found = std::filesystem::status(config, error);
+  if (std::filesystem::exists(found) && !std::filesystem::is_directory(found)) {
     return config;
   }
   const std::vector<std::string> ready = ReadyExperiments();
   const std::string name = ReadyName(config);
   if (std::find(ready.begin(), ready.end(), name) != ready.end()) {
     return (ReadyFolder() / (name + kExtension)).string();
+  }
+  if (std::filesystem::exists(found)) {
+    return config;  // a folder: whoever reads it says so
   }
   throw UsageError(fmt::format(
       "--config: expected a file or the name of a ready experiment ({} in {}); \"{}\" is neither{}",

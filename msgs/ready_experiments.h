@@ -14,9 +14,9 @@ inline constexpr char kDefaultExperiment[] = "quick";
 /// the installation has none.
 std::vector<std::string> ReadyExperiments();
 
-/// Returns the path of the file that `config` names. If the path `config` exists, it is that path. Otherwise
-/// NAME, NAME.textproto and configs/NAME.textproto all mean the installed experiment NAME. Throws UsageError
-/// that lists the installed experiments if `config` is neither.
+/// Returns the path of the file that `config` names. If there is such a file, it is that path. Otherwise
+/// NAME, NAME.textproto and configs/NAME.textproto all mean the installed experiment NAME, even beside a folder
+/// of that name. Throws UsageError that lists the installed experiments if `config` is none of all that.
 std::string ExperimentPath(const std::string& config);
 
 /// The help text of --config: the rule in short, the installed experiments, and the default (`without_it`).

@@ -64,6 +64,13 @@ TEST_F(ReadyExperimentsTest, StandBackForAPathThatExists) {
   EXPECT_EQ(ExperimentPath("configs/paper.textproto"), "configs/paper.textproto");
 }
 
+TEST_F(ReadyExperimentsTest, DoNotStandBackForAFolder) {
+  std::filesystem::create_directory("paper");
+  EXPECT_EQ(ReadFile(ExperimentPath("paper")), ReadFile(kReadyFolder / "paper.textproto"));
+  std::filesystem::create_directory("other");
+  EXPECT_EQ(ExperimentPath("other"), "other") << "whoever reads it says that it is a folder";
+}
+
 TEST_F(ReadyExperimentsTest, AreListedWhereThereIsNoSuchFile) {
   EXPECT_THAT(ErrorOf([] { ExperimentPath("quik.textproto"); }),
               AllOf(HasSubstr("--config"), HasSubstr("\"quik.textproto\""), HasSubstr(Listed()),
