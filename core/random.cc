@@ -43,13 +43,14 @@ double RandomStream::NextUniform() {
 uint32_t RandomStream::NextBelow(uint32_t bound) {
   FRESCO_CHECK(bound >= 1);
   // Lemire, "Fast random integer generation in an interval", 2019: multiply, reject the biased part.
-  const uint32_t threshold = (0u - bound) % bound;
-  for (;;) {
-    const uint64_t product = static_cast<uint64_t>(NextWord()) * bound;
-    if (static_cast<uint32_t>(product) >= threshold) {
-      return static_cast<uint32_t>(product >> 32);
+  uint64_t product = static_cast<uint64_t>(NextWord()) * bound;
+  if (static_cast<uint32_t>(product) < bound) {  // else there is no need for the slow division
+    const uint32_t threshold = (0u - bound) % bound;
+    while (static_cast<uint32_t>(product) < threshold) {
+      product = static_cast<uint64_t>(NextWord()) * bound;
     }
   }
+  return static_cast<uint32_t>(product >> 32);
 }
 
 }  // namespace fresco

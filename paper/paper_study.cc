@@ -98,7 +98,7 @@ double BudgetOfShare(const Experiment& base, Figure figure, double share) {
   const Experiment experiment = WithBudget(base, figure, kPlentyJ);
   const UavWorld& world = RequireUavWorld(experiment.world(), "the figures");
   const int moves = world.longest_episode();
-  const double least_j = CompletionEnergy(world, world.scenario().start, moves);
+  const double least_j = CompletionEnergy(world, world.DistanceToStop(world.scenario().start), moves);
   const double most_j = moves * std::max(world.flying_energy_j(), world.hovering_energy_j());
   return std::ceil(least_j + share * (most_j - least_j));
 }

@@ -110,7 +110,7 @@ int PlannerProblem::DearAllowance(int slot, int cell) const {
     return dear_slots_;
   }
   // The energy of the way to the stop says how many dear slots it needs.
-  const double home_j = CompletionEnergy(*world_, at, slots_left) - slots_left * cheap_energy_j_;
+  const double home_j = CompletionEnergy(*world_, world_->DistanceToStop(at), slots_left) - slots_left * cheap_energy_j_;
   return dear_slots_ - static_cast<int>(std::lround(home_j / extra_energy_j_));
 }
 

@@ -16,12 +16,14 @@ void Episode::Clear() {
 }
 
 void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed) {
-  const size_t begin = packed.size();
-  packed.resize(begin + static_cast<size_t>(MaskSize(static_cast<int>(mask.size()))), 0);
-  for (size_t action = 0; action < mask.size(); ++action) {
-    if (mask[action] != 0) {
-      packed[begin + action / 8] = static_cast<uint8_t>(packed[begin + action / 8] | (1u << (action % 8)));
+  constexpr size_t kBits = 8;
+  for (size_t first = 0; first < mask.size(); first += kBits) {
+    const size_t end = std::min(first + kBits, mask.size());
+    unsigned bits = 0;
+    for (size_t action = first; action < end; ++action) {
+      bits |= unsigned{mask[action]} << (action - first);
     }
+    packed.push_back(static_cast<uint8_t>(bits));
   }
 }
 

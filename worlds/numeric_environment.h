@@ -2,7 +2,6 @@
 // and a limit of steps. Only one thread at a time may use an object. Does not allocate.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -13,17 +12,16 @@
 
 namespace fresco {
 
-template <size_t kFields>
-class NumericEnvironment : public Environment {
+/// `kAdvance` advances the fields by a step with an action, and returns the reward, and kTerminal or kNone.
+template <size_t kFields, StepResult (*kAdvance)(int action, std::array<double, kFields>& state)>
+class NumericEnvironment final : public Environment {
  public:
-  using State = std::array<double, kFields>;
-
   /// Every field of the first state is uniform in (-largest_at_start, largest_at_start). After
   /// `maximum_steps` the episode is truncated, unless it ends in a terminal state there.
   NumericEnvironment(double largest_at_start, int maximum_steps)
       : largest_at_start_(largest_at_start), maximum_steps_(maximum_steps) {}
 
-  void Reset(uint64_t seed) final {
+  void Reset(uint64_t seed) override {
     RandomStream stream(seed, RandomPurpose::kEpisodeStart, 0, 0);
     for (double& field : state_) {
       field = largest_at_start_ * (2 * stream.NextUniform() - 1);
@@ -32,27 +30,25 @@ class NumericEnvironment : public Environment {
     ending_ = Ending::kNone;
   }
 
-  StepResult Step(int action) final {
+  StepResult Step(int action) override {
     FRESCO_CHECK(ending_ == Ending::kNone);
-    const StepResult result = Advance(action, state_);
+    const StepResult result = kAdvance(action, state_);
     ++steps_;
     ending_ = result.ending == Ending::kNone && steps_ == maximum_steps_ ? Ending::kTruncated : result.ending;
     return {result.reward, ending_};
   }
 
-  void WriteState(std::span<float> state) const final {
+  void WriteState(std::span<float> state) const override {
     FRESCO_CHECK(state.size() == kFields);
-    std::transform(state_.begin(), state_.end(), state.begin(),
-                   [](double field) { return static_cast<float>(field); });
+    for (size_t field = 0; field < kFields; ++field) {
+      state[field] = static_cast<float>(state_[field]);
+    }
   }
 
  private:
-  /// Advances the state by one step. Returns the reward, and kTerminal or kNone.
-  virtual StepResult Advance(int action, State& state) = 0;
-
   double largest_at_start_;
   int maximum_steps_;
-  State state_{};
+  std::array<double, kFields> state_{};
   int steps_ = 0;
   Ending ending_ = Ending::kNone;
 };

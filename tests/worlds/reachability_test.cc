@@ -156,11 +156,12 @@ TEST(Reachability, OnASingleCellAllSlackIsHovered) {
 TEST(Reachability, AnOddSlackTakesAHoverWhereHoveringIsTheDearer) {
   const UavWorld world(TableOneScenario());
   const double flown_j = world.flying_energy_j();
-  EXPECT_TRUE(CanReachStop(world, {10, 17}, 4, 4 * flown_j));
-  EXPECT_FALSE(CanReachStop(world, {10, 17}, 3, 3 * flown_j));
-  EXPECT_TRUE(CanReachStop(world, {10, 17}, 3, 2 * flown_j + world.hovering_energy_j()));
+  EXPECT_TRUE(CanReachStop(world, world.DistanceToStop({10, 17}), 4, 4 * flown_j));
+  EXPECT_FALSE(CanReachStop(world, world.DistanceToStop({10, 17}), 3, 3 * flown_j));
+  EXPECT_TRUE(
+      CanReachStop(world, world.DistanceToStop({10, 17}), 3, 2 * flown_j + world.hovering_energy_j()));
   EXPECT_GE(EnergyMargin(world, {10, 17}, 3, 3 * flown_j), 0);  // the paper's Delta does not see it
-  EXPECT_FALSE(CanReachStop(world, {10, 17}, 1, 1e6));
+  EXPECT_FALSE(CanReachStop(world, world.DistanceToStop({10, 17}), 1, 1e6));
 }
 
 }  // namespace

@@ -6,22 +6,17 @@
 #include "core/error.h"
 #include "worlds/episode.h"
 #include "worlds/numeric_environment.h"
+#include "worlds/trigonometry.h"
 
 namespace fresco {
 namespace {
 
-class AcrobotEnvironment : public NumericEnvironment<4> {
- public:
-  explicit AcrobotEnvironment(int maximum_steps) : NumericEnvironment(0.1, maximum_steps) {}
-
- private:
-  StepResult Advance(int action, State& state) override {
-    FRESCO_CHECK(action >= 0 && action <= 2);
-    state = Acrobot::After(state, action - 1);
-    const bool up = Acrobot::IsUp(state);
-    return {up ? 0.0 : -1.0, up ? Ending::kTerminal : Ending::kNone};
-  }
-};
+StepResult AdvanceAcrobot(int action, Acrobot::State& state) {
+  FRESCO_CHECK(action >= 0 && action <= 2);
+  state = Acrobot::After(state, action - 1);
+  const bool up = Acrobot::IsUp(state);
+  return {up ? 0.0 : -1.0, up ? Ending::kTerminal : Ending::kNone};
+}
 
 WorldDescription DescribeAcrobot(int maximum_steps) {
   WorldDescription description;
@@ -49,14 +44,13 @@ Acrobot::State AcrobotRates(const Acrobot::State& state, double torque_nm) {
   constexpr double kGravity = 9.8;  // m/s^2
   constexpr double kCoupling = kMassKg * kLengthM * kCentreM;
   const auto [angle1, angle2, velocity1, velocity2] = state;
-  const double sine2 = std::sin(angle2);
-  const double cosine2 = std::cos(angle2);
+  const auto [sine2, cosine2] = SineAndCosineOf(angle2);
   const double d1 = kMassKg * kCentreM * kCentreM + kMassKg * (kLengthM * kLengthM + kCentreM * kCentreM) +
                     2 * kCoupling * cosine2 + 2 * kInertia;
   const double d2 = kMassKg * kCentreM * kCentreM + kCoupling * cosine2 + kInertia;
-  const double phi2 = kMassKg * kCentreM * kGravity * std::sin(angle1 + angle2);
+  const double phi2 = kMassKg * kCentreM * kGravity * SineAndCosineOf(angle1 + angle2).sine;
   const double phi1 = -kCoupling * velocity2 * (velocity2 + 2 * velocity1) * sine2 +
-                      kMassKg * (kCentreM + kLengthM) * kGravity * std::sin(angle1) + phi2;
+                      kMassKg * (kCentreM + kLengthM) * kGravity * SineAndCosineOf(angle1).sine + phi2;
   const double acceleration2 =
       (torque_nm + d2 / d1 * phi1 - kCoupling * velocity1 * velocity1 * sine2 - phi2) /
       (kMassKg * kCentreM * kCentreM + kInertia - d2 * d2 / d1);
@@ -76,17 +70,16 @@ Acrobot::State Advance(Acrobot::State state, const Acrobot::State& rates, double
 Acrobot::Acrobot(int maximum_steps) : World(DescribeAcrobot(maximum_steps)) {}
 
 std::unique_ptr<Environment> Acrobot::NewEnvironment() const {
-  return std::make_unique<AcrobotEnvironment>(longest_episode());
+  return std::make_unique<NumericEnvironment<4, AdvanceAcrobot>>(0.1, longest_episode());
 }
 
 void Acrobot::Observe(std::span<const float> state, std::span<float> observation) const {
   FRESCO_CHECK(state.size() == 4 && observation.size() == 6);
-  const double angle1 = state[0];
-  const double angle2 = state[1];
-  observation[0] = static_cast<float>(std::cos(angle1));
-  observation[1] = static_cast<float>(std::sin(angle1));
-  observation[2] = static_cast<float>(std::cos(angle2));
-  observation[3] = static_cast<float>(std::sin(angle2));
+  for (size_t link = 0; link < 2; ++link) {
+    const auto [sine, cosine] = SineAndCosineOf(state[link]);
+    observation[2 * link] = static_cast<float>(cosine);
+    observation[2 * link + 1] = static_cast<float>(sine);
+  }
   observation[4] = static_cast<float>(state[2] / kMaximumVelocity1);
   observation[5] = static_cast<float>(state[3] / kMaximumVelocity2);
 }
@@ -111,7 +104,7 @@ Acrobot::State Acrobot::After(const State& state, double torque_nm) {
 }
 
 bool Acrobot::IsUp(const State& state) {
-  return -std::cos(state[0]) - std::cos(state[0] + state[1]) > 1;
+  return -SineAndCosineOf(state[0]).cosine - SineAndCosineOf(state[0] + state[1]).cosine > 1;
 }
 
 }  // namespace fresco

@@ -5,22 +5,17 @@
 #include "core/error.h"
 #include "worlds/episode.h"
 #include "worlds/numeric_environment.h"
+#include "worlds/trigonometry.h"
 
 namespace fresco {
 namespace {
 
-class CartPoleEnvironment : public NumericEnvironment<4> {
- public:
-  explicit CartPoleEnvironment(int maximum_steps) : NumericEnvironment(0.05, maximum_steps) {}
-
- private:
-  StepResult Advance(int action, State& state) override {
-    constexpr double kForceN = 10;
-    FRESCO_CHECK(action == 0 || action == 1);
-    state = CartPole::After(state, action == 1 ? kForceN : -kForceN);
-    return {1, CartPole::HasFailed(state) ? Ending::kTerminal : Ending::kNone};
-  }
-};
+StepResult AdvanceCartPole(int action, CartPole::State& state) {
+  constexpr double kForceN = 10;
+  FRESCO_CHECK(action == 0 || action == 1);
+  state = CartPole::After(state, action == 1 ? kForceN : -kForceN);
+  return {1, CartPole::HasFailed(state) ? Ending::kTerminal : Ending::kNone};
+}
 
 WorldDescription DescribeCartPole(int maximum_steps) {
   WorldDescription description;
@@ -41,7 +36,7 @@ WorldDescription DescribeCartPole(int maximum_steps) {
 CartPole::CartPole(int maximum_steps) : World(DescribeCartPole(maximum_steps)) {}
 
 std::unique_ptr<Environment> CartPole::NewEnvironment() const {
-  return std::make_unique<CartPoleEnvironment>(longest_episode());
+  return std::make_unique<NumericEnvironment<4, AdvanceCartPole>>(0.05, longest_episode());
 }
 
 void CartPole::Observe(std::span<const float> state, std::span<float> observation) const {
@@ -60,18 +55,17 @@ bool CartPole::Succeeded(const Episode& episode) const {
 CartPole::State CartPole::After(const State& state, double force_n) {
   constexpr double kGravity = 9.8;  // m/s^2
   constexpr double kPoleKg = 0.1;   // the cart has 1 kg
-  constexpr double kTotalKg = 1.1;
+  constexpr double kPerTotalKg = 1 / 1.1;
   constexpr double kHalfLengthM = 0.5;  // of the pole
   constexpr double kStepS = 0.02;
   const auto [position, velocity, angle, angular_velocity] = state;
-  const double sine = std::sin(angle);
-  const double cosine = std::cos(angle);
+  const auto [sine, cosine] = SineAndCosineOf(angle);
   // The cart's acceleration if the pole did not turn faster or slower.
   const double push =
-      (force_n + kPoleKg * kHalfLengthM * angular_velocity * angular_velocity * sine) / kTotalKg;
-  const double angular_acceleration =
-      (kGravity * sine - cosine * push) / (kHalfLengthM * (4.0 / 3 - kPoleKg * cosine * cosine / kTotalKg));
-  const double acceleration = push - kPoleKg * kHalfLengthM * angular_acceleration * cosine / kTotalKg;
+      (force_n + kPoleKg * kHalfLengthM * angular_velocity * angular_velocity * sine) * kPerTotalKg;
+  const double angular_acceleration = (kGravity * sine - cosine * push) /
+                                      (kHalfLengthM * (4.0 / 3 - kPoleKg * kPerTotalKg * cosine * cosine));
+  const double acceleration = push - kPoleKg * kHalfLengthM * kPerTotalKg * angular_acceleration * cosine;
   return {position + kStepS * velocity, velocity + kStepS * acceleration, angle + kStepS * angular_velocity,
           angular_velocity + kStepS * angular_acceleration};
 }

@@ -106,29 +106,46 @@ double UavEnvironment::RewardOfState() const {
   return reward;
 }
 
-bool UavEnvironment::IsSafe(Move move) const {
-  const int slots_left = world_->scenario().slots - state_.slot - 1;
-  const Cell next = world_->After(state_.cell, move);
-  const bool off_grid = move != Move::kHover && next == state_.cell;
-  return slots_left >= 0 && !off_grid &&
-         CanReachStop(*world_, next, slots_left, remaining_j_ - SlotEnergy(next));
+// All moves to cells that are as far from the stop are alike. There are few branches, since they are hard to
+// predict.
+std::array<uint8_t, kMoves> UavEnvironment::SafeMoves() const {
+  const UavWorld& world = *world_;
+  const Cell cell = state_.cell;
+  const int slots_left = world.scenario().slots - state_.slot - 1;
+  const int distance = world.DistanceToStop(cell);
+  const double after_flight_j = remaining_j_ - world.flying_energy_j();
+  const uint8_t farther = CanReachStop(world, distance + 1, slots_left, after_flight_j);
+  const uint8_t closer = CanReachStop(world, distance - 1, slots_left, after_flight_j);
+  std::array<uint8_t, kMoves> safe{};
+  for (size_t move = 0; move < static_cast<size_t>(Move::kHover); ++move) {
+    const Cell next = {cell.column + kMoveSteps[move].column, cell.row + kMoveSteps[move].row};
+    safe[move] =
+        static_cast<uint8_t>(world.OnGrid(next)) & (world.DistanceToStop(next) < distance ? closer : farther);
+  }
+  safe[static_cast<size_t>(Move::kHover)] =
+      CanReachStop(world, distance, slots_left, remaining_j_ - world.hovering_energy_j());
+  return safe;
 }
 
 void UavEnvironment::WriteMask(MaskOptions options, std::span<uint8_t> mask) const {
   FRESCO_CHECK(mask.size() == static_cast<size_t>(world_->actions()));
   std::array<uint8_t, kMoves> allowed{};
-  for (int move = 0; move < kMoves; ++move) {
-    allowed[static_cast<size_t>(move)] = !options.safe_actions || IsSafe(static_cast<Move>(move));
+  if (options.safe_actions) {
+    allowed = SafeMoves();
   }
-  if (std::count(allowed.begin(), allowed.end(), 1) == 0) {
-    allowed.fill(1);  // the stop is out of reach already, or the episode is over
+  if ((allowed[0] | allowed[1] | allowed[2] | allowed[3] | allowed[4]) == 0) {
+    allowed.fill(1);  // no option, the stop is out of reach already, or the episode is over
   }
-  const bool covered_only = options.coverage && outcome_ == Outcome::kFlying;
-  size_t index = 0;
-  for (const uint8_t move_allowed : allowed) {
-    mask[index++] = move_allowed;  // schedule 0
-    for (int sensor = 0; sensor < world_->sensors(); ++sensor) {
-      mask[index++] = move_allowed && (!covered_only || world_->Covers(state_.cell, sensor));
+  const uint8_t any_sensor = !options.coverage || outcome_ != Outcome::kFlying;
+  const std::span<const uint8_t> coverage = world_->Coverage(state_.cell);
+  const size_t schedules = coverage.size() + 1;
+  for (size_t move = 0; move < kMoves; ++move) {
+    mask[move * schedules] = allowed[move];
+  }
+  for (size_t schedule = 1; schedule < schedules; ++schedule) {
+    const uint8_t useful = any_sensor | coverage[schedule - 1];
+    for (size_t move = 0; move < kMoves; ++move) {
+      mask[move * schedules + schedule] = allowed[move] & useful;
     }
   }
 }

@@ -2,6 +2,7 @@
 // Deterministic. Only one thread at a time may use an instance. Does not allocate after construction.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -52,9 +53,10 @@ class UavEnvironment : public Environment {
   void WriteMask(std::span<uint8_t> mask) const override { WriteMask(world_->mask_options(), mask); }
 
   /// Whether the move stays on the grid and the stop can still be reached after it.
-  bool IsSafe(Move move) const;
+  bool IsSafe(Move move) const { return SafeMoves()[static_cast<size_t>(move)] != 0; }
 
  private:
+  std::array<uint8_t, kMoves> SafeMoves() const;
   void Collect(int schedule);
   double SlotEnergy(Cell next) const;
   void UpdateMargins();

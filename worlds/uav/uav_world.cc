@@ -167,13 +167,19 @@ const char* MoveName(Move move) {
 
 UavWorld::UavWorld(Scenario scenario, UavOptions options)
     : World(Describe(Checked(scenario), options)), scenario_(std::move(scenario)), options_(options) {
+  for (int move = 0; move < kMoves; ++move) {
+    for (int schedule = 0; schedule <= sensors(); ++schedule) {
+      actions_.push_back({static_cast<Move>(move), schedule});
+    }
+  }
   DeriveEnergies();
   DeriveTheta();
   DeriveCoverage();
   network_input_.emplace(*this, options.network_input);
   const int moves = longest_episode();
-  if (!CanReachStop(*this, scenario_.start, moves, scenario_.initial_energy_j)) {
-    const double needed_j = CompletionEnergy(*this, scenario_.start, moves);
+  const int distance = DistanceToStop(scenario_.start);
+  if (!CanReachStop(*this, distance, moves, scenario_.initial_energy_j)) {
+    const double needed_j = CompletionEnergy(*this, distance, moves);
     throw UsageError(fmt::format(
         "scenario.initial_energy_j: {} is out of range: the cheapest flight from scenario.start to "
         "scenario.stop in {} slots takes {:.6g} J, {:.6g} J more; allowed: at least that",
@@ -194,6 +200,7 @@ void UavWorld::DeriveEnergies() {
   const double quantum = std::ldexp(1.0, std::ilogb(largest_j) + 2 - kSignificandBits);
   flying_energy_j_ = RoundTo(flying_j, quantum);
   hovering_energy_j_ = RoundTo(hovering_j, quantum);
+  flies_spare_slots_ = flying_energy_j_ < hovering_energy_j_ && (scenario_.columns > 1 || scenario_.rows > 1);
   scenario_.initial_energy_j = RoundTo(scenario_.initial_energy_j, quantum);
 }
 
@@ -309,40 +316,6 @@ const UavWorld& RequireUavWorld(const World& world, const std::string& what) {
   return *uav;
 }
 
-bool UavWorld::OnGrid(Cell cell) const {
-  return cell.column >= 0 && cell.column < scenario_.columns && cell.row >= 0 && cell.row < scenario_.rows;
-}
-
-Cell UavWorld::After(Cell cell, Move move) const {
-  Cell next = cell;
-  switch (move) {
-    case Move::kNorth:
-      ++next.row;
-      break;
-    case Move::kSouth:
-      --next.row;
-      break;
-    case Move::kEast:
-      ++next.column;
-      break;
-    case Move::kWest:
-      --next.column;
-      break;
-    case Move::kHover:
-      break;
-  }
-  return OnGrid(next) ? next : cell;
-}
-
-int UavWorld::DistanceToStop(Cell cell) const {
-  return std::abs(cell.column - scenario_.stop.column) + std::abs(cell.row - scenario_.stop.row);
-}
-
-Action UavWorld::ActionAt(int index) const {
-  FRESCO_CHECK(index >= 0 && index < actions());
-  return {static_cast<Move>(index / (sensors() + 1)), index % (sensors() + 1)};
-}
-
 Move MoveTowards(Cell from, Cell to) {
   const int columns = to.column - from.column;
   const int rows = to.row - from.row;
@@ -353,28 +326,6 @@ Move MoveTowards(Cell from, Cell to) {
     return columns > 0 ? Move::kEast : Move::kWest;
   }
   return rows > 0 ? Move::kNorth : Move::kSouth;
-}
-
-double EnergyMargin(const UavWorld& world, Cell cell, int slots_left, double remaining_j) {
-  if (world.flying_energy_j() <= world.hovering_energy_j()) {
-    return remaining_j - slots_left * world.flying_energy_j();
-  }
-  const int flown = std::min(world.DistanceToStop(cell), slots_left);
-  return remaining_j - flown * world.flying_energy_j() - (slots_left - flown) * world.hovering_energy_j();
-}
-
-double CompletionEnergy(const UavWorld& world, Cell cell, int slots_left) {
-  const int slack = slots_left - world.DistanceToStop(cell);
-  FRESCO_CHECK(slack >= 0);
-  const bool hovering_costs_more = world.hovering_energy_j() > world.flying_energy_j();
-  const bool single_cell = world.scenario().columns == 1 && world.scenario().rows == 1;
-  // Flying to a neighbouring cell and back takes two slots, so it uses up an even number of spare slots.
-  const int hovers = hovering_costs_more && !single_cell ? slack % 2 : slack;
-  return (slots_left - hovers) * world.flying_energy_j() + hovers * world.hovering_energy_j();
-}
-
-bool CanReachStop(const UavWorld& world, Cell cell, int slots_left, double remaining_j) {
-  return world.DistanceToStop(cell) <= slots_left && remaining_j >= CompletionEnergy(world, cell, slots_left);
 }
 
 }  // namespace fresco

@@ -3,12 +3,16 @@
 // may share one.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/error.h"
 #include "worlds/uav/network_input.h"
 #include "worlds/uav/scenario.h"
 #include "worlds/world.h"
@@ -17,6 +21,8 @@ namespace fresco {
 
 enum class Move : uint8_t { kNorth = 0, kSouth = 1, kEast = 2, kWest = 3, kHover = 4 };
 inline constexpr int kMoves = 5;
+/// What each move adds to column and row.
+inline constexpr std::array<Cell, kMoves> kMoveSteps = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {0, 0}}};
 
 /// "north", "south", "east", "west", "hover".
 const char* MoveName(Move move);
@@ -106,27 +112,45 @@ class UavWorld : public World {
   /// reached.
   double flying_energy_j() const { return flying_energy_j_; }      ///< P(V) tau
   double hovering_energy_j() const { return hovering_energy_j_; }  ///< P(0) tau
+  /// Whether the cheapest flight to the stop flies its spare slots to and fro, two at a time: flying takes
+  /// less energy than hovering, and there is a neighbouring cell.
+  bool flies_spare_slots() const { return flies_spare_slots_; }
 
   /// Numbers the cells row by row, 0 .. columns * rows - 1.
   int CellIndex(Cell cell) const { return cell.row * scenario_.columns + cell.column; }
-  bool OnGrid(Cell cell) const;
+  bool OnGrid(Cell cell) const {
+    // A negative number is a large one without sign.
+    return (static_cast<unsigned>(cell.column) < static_cast<unsigned>(scenario_.columns)) &
+           (static_cast<unsigned>(cell.row) < static_cast<unsigned>(scenario_.rows));
+  }
   /// The cell after a move. A move off the grid leaves the UAV where it is.
-  Cell After(Cell cell, Move move) const;
+  Cell After(Cell cell, Move move) const {
+    const Cell step = kMoveSteps[static_cast<size_t>(move)];
+    const Cell next = {cell.column + step.column, cell.row + step.row};
+    return OnGrid(next) ? next : cell;
+  }
   /// Manhattan distance to the stop, in cells.
-  int DistanceToStop(Cell cell) const;
+  int DistanceToStop(Cell cell) const {
+    return std::abs(cell.column - scenario_.stop.column) + std::abs(cell.row - scenario_.stop.row);
+  }
 
   /// Whether the UAV over `cell` covers a sensor: their horizontal distance is at most R. `sensor` is 0 .. N
   /// - 1.
-  bool Covers(Cell cell, int sensor) const {
-    return coverage_[static_cast<size_t>(CellIndex(cell)) * static_cast<size_t>(sensors()) +
-                     static_cast<size_t>(sensor)] != 0;
+  bool Covers(Cell cell, int sensor) const { return Coverage(cell)[static_cast<size_t>(sensor)] != 0; }
+  /// For each sensor 1 if the UAV over `cell` covers it, otherwise 0.
+  std::span<const uint8_t> Coverage(Cell cell) const {
+    const auto count = static_cast<size_t>(sensors());
+    return std::span(coverage_).subspan(static_cast<size_t>(CellIndex(cell)) * count, count);
   }
 
   /// The index of an action, 0 .. actions() - 1, is move * (N + 1) + schedule. ActionAt CHECKs the index.
   int ActionIndex(Action action) const {
     return static_cast<int>(action.move) * (sensors() + 1) + action.schedule;
   }
-  Action ActionAt(int index) const;
+  Action ActionAt(int index) const {
+    FRESCO_CHECK(index >= 0 && index < actions());
+    return actions_[static_cast<size_t>(index)];
+  }
 
  private:
   void DeriveEnergies();
@@ -135,10 +159,12 @@ class UavWorld : public World {
 
   Scenario scenario_;
   UavOptions options_;
+  std::vector<Action> actions_;
   std::vector<double> theta_;
   std::vector<uint8_t> coverage_;
   double flying_energy_j_ = 0;
   double hovering_energy_j_ = 0;
+  bool flies_spare_slots_ = false;
   std::optional<NetworkInput> network_input_;  // always, once the world is constructed
 };
 
@@ -153,20 +179,31 @@ const UavWorld& RequireUavWorld(const World& world, const std::string& what);
 /// as in the paper. (That is an upper bound: an odd number of spare slots takes a hover, see
 /// CompletionEnergy.) Otherwise the distance to the stop is flown and the spare slots are hovered. If
 /// time_margin < 0, there are no spare slots.
-double EnergyMargin(const UavWorld& world, Cell cell, int slots_left, double remaining_j);
+inline double EnergyMargin(const UavWorld& world, Cell cell, int slots_left, double remaining_j) {
+  const int flown = world.flying_energy_j() <= world.hovering_energy_j()
+                        ? slots_left
+                        : std::min(world.DistanceToStop(cell), slots_left);
+  return remaining_j - flown * world.flying_energy_j() - (slots_left - flown) * world.hovering_energy_j();
+}
 
-/// Returns the joules of the cheapest flight from `cell` to the stop in exactly `slots_left` slots; CHECKs
-/// that these are at least the distance. If flying takes no less energy than hovering, the spare slots are
+/// Returns the joules of the cheapest flight to a stop that is so many cells away, in exactly `slots_left`
+/// slots, which are at least the distance. If flying takes no less energy than hovering, the spare slots are
 /// hovered. Otherwise they are flown to and fro, two at a time, so only an odd number of them takes one
 /// hover. (On a grid of a single cell there is nowhere to fly, so all of them are hovered.)
-double CompletionEnergy(const UavWorld& world, Cell cell, int slots_left);
+inline double CompletionEnergy(const UavWorld& world, int distance, int slots_left) {
+  const int spare = slots_left - distance;
+  const int hovered = world.flies_spare_slots() ? spare & 1 : spare;
+  return (slots_left - hovered) * world.flying_energy_j() + hovered * world.hovering_energy_j();
+}
+
+/// Whether a stop that is so many cells away can still be reached in `slots_left` slots with `remaining_j`
+/// joules. This is exact.
+inline bool CanReachStop(const UavWorld& world, int distance, int slots_left, double remaining_j) {
+  return (distance <= slots_left) & (remaining_j >= CompletionEnergy(world, distance, slots_left));
+}
 
 /// Returns the move towards `to` along the axis with the larger distance, along columns if they are equal; a
 /// hover if `from` is `to`.
 Move MoveTowards(Cell from, Cell to);
-
-/// Whether the stop can still be reached from `cell` in `slots_left` slots with `remaining_j` joules. This is
-/// exact.
-bool CanReachStop(const UavWorld& world, Cell cell, int slots_left, double remaining_j);
 
 }  // namespace fresco
