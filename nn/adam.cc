@@ -24,13 +24,13 @@ AdamStep Adam::Begin(double learning_rate) {
           static_cast<float>(options_.epsilon * root)};
 }
 
-void Adam::Step(const AdamStep& step, int64_t first, int64_t end, std::span<const float> gradient,
+void Adam::Step(const AdamStep& step, int64_t first, std::span<const float> gradient,
                 std::span<float> parameters) {
-  FRESCO_CHECK(static_cast<int64_t>(gradient.size()) == state_.first_moment.size());
+  const auto count = static_cast<int64_t>(parameters.size());
   FRESCO_CHECK(gradient.size() == parameters.size());
-  FRESCO_CHECK(first >= 0 && first <= end && end <= state_.first_moment.size());
-  CurrentArithmetic().step(step, end - first, gradient.data() + first, state_.first_moment.data() + first,
-                           state_.second_moment.data() + first, parameters.data() + first);
+  FRESCO_CHECK(first >= 0 && first + count <= state_.first_moment.size());
+  CurrentArithmetic().step(step, count, gradient.data(), state_.first_moment.data() + first,
+                           state_.second_moment.data() + first, parameters.data());
 }
 
 void Adam::Restore(State state) {

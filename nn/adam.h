@@ -30,9 +30,9 @@ class Adam {
   /// Begins the next step: parameters -= learning_rate * m_hat / (sqrt(v_hat) + epsilon).
   AdamStep Begin(double learning_rate);
 
-  /// Makes the step for the parameters from `first` to before `end`. Both spans have parameter_count entries;
-  /// CHECKs that. Threads may share a step if each has parameters of its own.
-  void Step(const AdamStep& step, int64_t first, int64_t end, std::span<const float> gradient,
+  /// Makes the step for `parameters`, which are those from number `first` on, with their gradient of the same
+  /// size. CHECKs that. Threads may share a step if each has parameters of its own.
+  void Step(const AdamStep& step, int64_t first, std::span<const float> gradient,
             std::span<float> parameters);
 
   /// Everything that the optimiser needs to continue with the same bits.

@@ -45,6 +45,10 @@ struct AdamStep {
   float epsilon = 0;    ///< with the correction of the second moment's bias
 };
 
+/// A moment nearer to 0 becomes 0. Otherwise the moments of a parameter whose gradient stays 0 would come to
+/// the smallest numbers, with which processors are many times slower.
+inline constexpr float kSmallestMoment = 0x1p-100f;
+
 /// One implementation.
 struct Arithmetic {
   const char* name;  ///< of the instruction set: "x86-64-v4", "x86-64-v3", "aarch64", "portable"
@@ -55,7 +59,8 @@ struct Arithmetic {
   void (*add_scaled)(int count, float factor, const float* x, float* y);
 
   /// For each of `count` parameters p with gradient g: m = beta1 m + (1 - beta1) g; v = beta2 v + (1 - beta2)
-  /// g^2; p = p - step_size m / (sqrt(v) + epsilon). Every operation is rounded by itself.
+  /// g^2; p = p - step_size m / (sqrt(v) + epsilon). Every operation is rounded by itself. See
+  /// kSmallestMoment.
   void (*step)(const AdamStep& step, int64_t count, const float* gradient, float* first_moment,
                float* second_moment, float* parameters);
 };

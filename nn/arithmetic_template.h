@@ -162,11 +162,15 @@ void AddScaled(int count, float factor, const float* __restrict x, float* __rest
   }
 }
 
+float WithoutTiny(float moment) {
+  return __builtin_fabsf(moment) < kSmallestMoment ? 0 : moment;
+}
+
 void StepAdam(const AdamStep& step, int64_t count, const float* __restrict g, float* __restrict m,
               float* __restrict v, float* __restrict p) {
   for (int64_t i = 0; i < count; ++i) {
-    m[i] = step.beta1 * m[i] + (1 - step.beta1) * g[i];
-    v[i] = step.beta2 * v[i] + (1 - step.beta2) * (g[i] * g[i]);
+    m[i] = WithoutTiny(step.beta1 * m[i] + (1 - step.beta1) * g[i]);
+    v[i] = WithoutTiny(step.beta2 * v[i] + (1 - step.beta2) * (g[i] * g[i]));
     p[i] -= step.step_size * m[i] / (__builtin_sqrtf(v[i]) + step.epsilon);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/bytes.h"
 #include "core/error.h"
@@ -39,6 +40,38 @@ std::vector<ParameterPart> PartsOf(const MlpShape& shape) {
     }
   }
   return parts;
+}
+
+// The side of the squares in which a matrix is transposed.
+constexpr int kBlock = 4;
+
+/// Writes the transpose of a block [rows x columns], each at most kBlock.
+void TransposeBlock(const float* from, int64_t from_stride, int rows, int columns, float* to,
+                    int64_t to_stride) {
+  if (rows < kBlock || columns < kBlock) {
+    for (int column = 0; column < columns; ++column) {
+      for (int row = 0; row < rows; ++row) {
+        to[row * to_stride + column] = from[column * from_stride + row];
+      }
+    }
+    return;
+  }
+  using Four [[gnu::vector_size(16)]] = float;
+  Four in[kBlock];
+  for (int column = 0; column < kBlock; ++column) {
+    std::memcpy(&in[column], from + column * from_stride, sizeof(Four));
+  }
+  const Four low01 = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5);
+  const Four high01 = __builtin_shufflevector(in[0], in[1], 2, 6, 3, 7);
+  const Four low23 = __builtin_shufflevector(in[2], in[3], 0, 4, 1, 5);
+  const Four high23 = __builtin_shufflevector(in[2], in[3], 2, 6, 3, 7);
+  const Four out[kBlock] = {__builtin_shufflevector(low01, low23, 0, 1, 4, 5),
+                            __builtin_shufflevector(low01, low23, 2, 3, 6, 7),
+                            __builtin_shufflevector(high01, high23, 0, 1, 4, 5),
+                            __builtin_shufflevector(high01, high23, 2, 3, 6, 7)};
+  for (int row = 0; row < kBlock; ++row) {
+    std::memcpy(to + row * to_stride, &out[row], sizeof(Four));
+  }
 }
 
 uint32_t ComputeFingerprint() {
@@ -160,10 +193,11 @@ void Mlp::Transpose(std::span<const float> parameters, const ParameterPart& part
   const int outputs = shape_.layer_outputs(part.layer);
   const float* weights = parameters.data() + shape_.weights_offset(part.layer);
   Matrix& transposed = workspace.transposed_[static_cast<size_t>(part.layer)];
-  for (int output = 0; output < outputs; ++output) {
-    float* to = transposed.col(output).data();
-    for (int input = part.first_input; input < part.end_input; ++input) {
-      to[input] = weights[int64_t{input} * outputs + output];
+  for (int output = 0; output < outputs; output += kBlock) {
+    for (int input = part.first_input; input < part.end_input; input += kBlock) {
+      TransposeBlock(weights + int64_t{input} * outputs + output, outputs, std::min(kBlock, outputs - output),
+                     std::min(kBlock, part.end_input - input), transposed.col(output).data() + input,
+                     transposed.rows());
     }
   }
 }
@@ -211,9 +245,17 @@ void Mlp::BackwardColumns(const OutputGradient& output_gradient, ColumnRange col
   }
 }
 
+int64_t Mlp::LargestPart(const MlpShape& shape) {
+  int64_t largest = 0;
+  for (const ParameterPart& part : PartsOf(shape)) {
+    largest = std::max(largest, part.size());
+  }
+  return largest;
+}
+
 void Mlp::BackwardPart(const OutputGradient& output_gradient, int batch, const ParameterPart& part,
                        MlpWorkspace& workspace, std::span<float> gradient) const {
-  FRESCO_CHECK(static_cast<int64_t>(gradient.size()) == shape_.parameter_count());
+  FRESCO_CHECK(static_cast<int64_t>(gradient.size()) == part.size());
   if (part.layer == shape_.layers() - 1) {
     LastLayerGradient(output_gradient, batch, part, workspace, gradient);
     return;
@@ -231,11 +273,11 @@ void Mlp::BackwardPart(const OutputGradient& output_gradient, int batch, const P
   product.b = below.data() + part.first_input;
   product.b_row_stride = below.rows();
   product.b_stride = 1;
-  product.result = gradient.data() + part.first;
+  product.result = gradient.data();
   product.result_stride = outputs;
   arithmetic.multiply(product);
   if (part.end_input == shape_.layer_inputs(part.layer)) {
-    float* biases = gradient.data() + shape_.biases_offset(part.layer);
+    float* biases = gradient.data() + shape_.biases_offset(part.layer) - part.first;
     std::fill_n(biases, outputs, 0.0f);
     for (int column = 0; column < batch; ++column) {
       arithmetic.add_scaled(outputs, 1.0f, above.col(column).data(), biases);
@@ -257,9 +299,9 @@ void Mlp::LastLayerGradient(const OutputGradient& output_gradient, int batch, co
                           below.col(column).data() + part.first_input,
                           transposed.col(output_gradient.units[static_cast<size_t>(column)]).data());
   }
-  Eigen::Map<Matrix>(gradient.data() + part.first, outputs, inputs) = transposed.transpose();
+  Eigen::Map<Matrix>(gradient.data(), outputs, inputs) = transposed.transpose();
   if (part.end_input == shape_.layer_inputs(part.layer)) {
-    float* biases = gradient.data() + shape_.biases_offset(part.layer);
+    float* biases = gradient.data() + shape_.biases_offset(part.layer) - part.first;
     std::fill_n(biases, outputs, 0.0f);
     for (int column = 0; column < batch; ++column) {
       const auto i = static_cast<size_t>(column);

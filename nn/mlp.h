@@ -67,6 +67,7 @@ struct ParameterPart {
   int end_input = 0;
   int64_t first = 0;  ///< in the flat vector
   int64_t end = 0;
+  int64_t size() const { return end - first; }
 };
 
 /// d loss / d output of a batch whose loss depends on one output in each column.
@@ -119,6 +120,8 @@ class Mlp {
 
   /// The parts of the parameters, which together are all of them, in ascending order.
   const std::vector<ParameterPart>& parts() const { return parts_; }
+  /// The most parameters of a part.
+  static int64_t LargestPart(const MlpShape& shape);
 
   /// Prepares the backward pass: call it for every part whose parameters have changed.
   void Transpose(std::span<const float> parameters, const ParameterPart& part, MlpWorkspace& workspace) const;
@@ -128,7 +131,7 @@ class Mlp {
                        MlpWorkspace& workspace) const;
 
   /// The second stage, after the first one of all columns of a batch: computes d loss / d parameters of a
-  /// part and writes it to its place in `gradient` (parameter_count() entries).
+  /// part, `gradient` (part.size() entries).
   void BackwardPart(const OutputGradient& output_gradient, int batch, const ParameterPart& part,
                     MlpWorkspace& workspace, std::span<float> gradient) const;
 

@@ -36,15 +36,19 @@ int MostColumnsOfJob(int batch_size, int threads) {
 
 }  // namespace
 
+// Without branches, since the largest value is hard to predict.
 std::optional<int> BestAllowedAction(const Matrix& values, int column, std::span<const uint8_t> mask,
                                      int first, int end) {
-  std::optional<int> best;
+  const float* value = values.col(column).data();
+  int best = -1;
+  float best_value = 0;
   for (int action = first; action < end; ++action) {
-    if (mask[static_cast<size_t>(action)] != 0 && (!best || values(action, column) > values(*best, column))) {
-      best = action;
-    }
+    const bool better =
+        (mask[static_cast<size_t>(action)] != 0) & ((best < 0) | (value[action] > best_value));
+    best = better ? action : best;
+    best_value = better ? value[action] : best_value;
   }
-  return best;
+  return best < 0 ? std::nullopt : std::optional(best);
 }
 
 int GreedyAction(const Matrix& values, int column, std::span<const uint8_t> mask) {
@@ -63,11 +67,11 @@ Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options, int t
       targets_(static_cast<size_t>(options.batch_size)),
       errors_(targets_.size()),
       output_gradients_(targets_.size()),
-      gradient_(shape.parameter_count()),
       choices_(targets_.size()),
       team_(threads) {
   for (int thread = 0; thread < threads; ++thread) {
-    next_workspaces_.emplace_back(shape, MostColumnsOfJob(options.batch_size, threads));
+    scratches_.push_back({MlpWorkspace(shape, MostColumnsOfJob(options.batch_size, threads)),
+                          Vector(Mlp::LargestPart(shape))});
   }
   TransposeAll();
 }
@@ -79,7 +83,7 @@ void Dqn::TransposeAll() {
 }
 
 int64_t Dqn::ParameterBytes(const MlpShape& shape) {
-  constexpr int64_t kVectors = 3;  // current, target, gradient
+  constexpr int64_t kVectors = 2;  // current, target
   return kVectors * shape.parameter_count() * static_cast<int64_t>(sizeof(Vector::Scalar)) +
          Adam::BytesFor(shape.parameter_count());
 }
@@ -89,8 +93,9 @@ int64_t Dqn::BatchBytes(const MlpShape& shape, int batch_size, int threads) {
       sizeof(decltype(targets_)::value_type) + sizeof(decltype(errors_)::value_type) +
       sizeof(decltype(output_gradients_)::value_type) + sizeof(decltype(choices_)::value_type));
   return MlpWorkspace::BytesFor(shape, batch_size, MlpWorkspace::Passes::kForwardAndBackward) +
-         threads * MlpWorkspace::BytesFor(shape, MostColumnsOfJob(batch_size, threads),
-                                          MlpWorkspace::Passes::kForward) +
+         threads * (MlpWorkspace::BytesFor(shape, MostColumnsOfJob(batch_size, threads),
+                                           MlpWorkspace::Passes::kForward) +
+                    Mlp::LargestPart(shape) * static_cast<int64_t>(sizeof(Vector::Scalar))) +
          batch_size * of_column;
 }
 
@@ -107,14 +112,16 @@ double Dqn::Update(const MiniBatch& batch, double learning_rate) {
   const int size = batch.size();
   const int jobs = ColumnJobs(size, team_.threads());
   team_.Run(jobs, [&](int job, int thread) {
-    ComputeColumns(batch, ColumnsOfJob(job, jobs, size), next_workspaces_[static_cast<size_t>(thread)]);
+    ComputeColumns(batch, ColumnsOfJob(job, jobs, size), scratches_[static_cast<size_t>(thread)].next);
   });
   const OutputGradient output_gradient{batch.actions, output_gradients_};
   const AdamStep step = adam_.Begin(learning_rate);
-  team_.Run(static_cast<int>(mlp_.parts().size()), [&](int job, int) {
+  team_.Run(static_cast<int>(mlp_.parts().size()), [&](int job, int thread) {
     const ParameterPart& part = mlp_.parts()[static_cast<size_t>(job)];
-    mlp_.BackwardPart(output_gradient, size, part, workspace_, Values(gradient_));
-    adam_.Step(step, part.first, part.end, Values(gradient_), Values(current_));
+    const auto count = static_cast<size_t>(part.size());
+    const std::span gradient = Values(scratches_[static_cast<size_t>(thread)].gradient).first(count);
+    mlp_.BackwardPart(output_gradient, size, part, workspace_, gradient);
+    adam_.Step(step, part.first, gradient, Values(current_).subspan(static_cast<size_t>(part.first), count));
     mlp_.Transpose(Values(current_), part, workspace_);
   });
   double loss = 0;

@@ -71,10 +71,14 @@ class Dqn {
   std::vector<float> targets_;           // y, by column
   std::vector<float> errors_;            // Q(s, a) - y, by column
   std::vector<float> output_gradients_;  // d L / d Q(s, a), by column
-  Vector gradient_;
   std::vector<int> choices_;  // actions that the current network chooses in s'; for Double DQN only
   ThreadTeam team_;
-  std::vector<MlpWorkspace> next_workspaces_;  // for s', by thread
+  /// What one thread works with.
+  struct Scratch {
+    MlpWorkspace next;  // for s', of the columns of a job
+    Vector gradient;    // of a part of the parameters
+  };
+  std::vector<Scratch> scratches_;  // by thread
 };
 
 }  // namespace fresco

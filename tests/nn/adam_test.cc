@@ -33,7 +33,7 @@ class LiteralAdam {
 
 void Step(Adam& adam, const std::vector<float>& gradient, double learning_rate,
           std::vector<float>& parameters) {
-  adam.Step(adam.Begin(learning_rate), 0, static_cast<int64_t>(gradient.size()), gradient, parameters);
+  adam.Step(adam.Begin(learning_rate), 0, gradient, parameters);
 }
 
 TEST(Adam, FollowsAlgorithm1) {
@@ -91,7 +91,10 @@ TEST(Adam, BitsDoNotDependOnHowTheParametersAreDivided) {
     Adam other(kCount, {});
     const AdamStep step = other.Begin(1e-2);
     for (int64_t first = 0; first < kCount; first += at_once) {
-      other.Step(step, first, std::min(kCount, first + at_once), gradient, divided);
+      const auto begin = static_cast<size_t>(first);
+      const auto count = static_cast<size_t>(std::min(at_once, kCount - first));
+      other.Step(step, first, std::span(gradient).subspan(begin, count),
+                 std::span(divided).subspan(begin, count));
     }
     EXPECT_EQ(divided, together) << at_once;
   }

@@ -177,10 +177,12 @@ TEST_P(ArithmeticTest, StepsOfAdamRoundEveryOperation) {
       volatile float a = kStep.beta1 * m[i];
       volatile float b = (1 - kStep.beta1) * gradient[i];
       m[i] = a + b;
+      m[i] = std::abs(m[i]) < kSmallestMoment ? 0 : m[i];
       a = kStep.beta2 * v[i];
       b = gradient[i] * gradient[i];
       b = (1 - kStep.beta2) * b;
       v[i] = a + b;
+      v[i] = v[i] < kSmallestMoment ? 0 : v[i];
       a = kStep.step_size * m[i];
       b = std::sqrt(v[i]);
       b = b + kStep.epsilon;
@@ -192,6 +194,25 @@ TEST_P(ArithmeticTest, StepsOfAdamRoundEveryOperation) {
     EXPECT_EQ(second, v) << count;
     EXPECT_EQ(parameters, p) << count;
   }
+}
+
+// A dead unit's parameters: their gradient stays 0, and so their moments shrink at every step.
+TEST_P(ArithmeticTest, MomentsThatFadeBecomeZeroBeforeTheyAreSlow) {
+  constexpr AdamStep kStep = {0.9f, 0.9f, 1e-3f, 1e-8f};
+  constexpr int kCount = 40;
+  const std::vector<float> gradient(kCount, 0.0f);
+  std::vector<float> first(kCount, -1.0f);
+  std::vector<float> second(kCount, 1.0f);
+  std::vector<float> parameters(kCount, 1.0f);
+  constexpr int kStepsToFade = 700;  // 0.9^700 is 2^-106
+  for (int i = 0; i < kStepsToFade; ++i) {
+    arithmetic().step(kStep, kCount, gradient.data(), first.data(), second.data(), parameters.data());
+    for (const float moment : {first[0], first[kCount - 1], second[0], second[kCount - 1]}) {
+      ASSERT_NE(std::fpclassify(moment), FP_SUBNORMAL) << i;
+    }
+  }
+  EXPECT_EQ(first, gradient);
+  EXPECT_EQ(second, gradient);
 }
 
 INSTANTIATE_TEST_SUITE_P(Available, ArithmeticTest,

@@ -64,7 +64,9 @@ class MlpGradient : public ::testing::TestWithParam<std::vector<int>> {
       mlp_.BackwardColumns(output_gradient, {std::max(0, end - columns_at_once), end}, workspace_);
     }
     std::for_each(mlp_.parts().rbegin(), mlp_.parts().rend(), [&](const ParameterPart& part) {
-      mlp_.BackwardPart(output_gradient, kBatch, part, workspace_, gradient);
+      mlp_.BackwardPart(
+          output_gradient, kBatch, part, workspace_,
+          std::span(gradient).subspan(static_cast<size_t>(part.first), static_cast<size_t>(part.size())));
     });
     return gradient;
   }
