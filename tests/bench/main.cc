@@ -26,7 +26,7 @@ struct BenchArguments {
 std::vector<Subject> AllSubjects() {
   std::vector<Subject> all;
   for (const auto& subjects : {UpdateSubjects, EnvironmentSubjects, ActorSubjects, BusSubjects,
-                               TrainingSubjects, LogSubjects, PlannerSubjects}) {
+                               TrainingSubjects, LogSubjects, PlannerSubjects, GrowthSubjects}) {
     for (const Subject& subject : subjects()) {
       all.push_back(subject);
     }

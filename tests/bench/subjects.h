@@ -14,5 +14,6 @@ std::vector<Subject> BusSubjects();
 std::vector<Subject> TrainingSubjects();
 std::vector<Subject> LogSubjects();
 std::vector<Subject> PlannerSubjects();
+std::vector<Subject> GrowthSubjects();
 
 }  // namespace fresco

@@ -2,29 +2,16 @@
 
 #include <vector>
 
-#include "core/error.h"
-
 namespace fresco {
-namespace {
-
-constexpr int kTransitions = 40'000;
-
-/// A Dqn whose updates use so many threads. There is only one thread so far.
-std::unique_ptr<Dqn> MakeDqn(const MlpShape& shape, const DqnOptions& options, int threads) {
-  return std::make_unique<Dqn>(shape, InitialParameters(shape, 1), options, threads);
-}
-
-}  // namespace
-
-UpdateLoop::UpdateLoop(const MlpShape& shape, const DqnOptions& options, int threads)
-    : memory_(shape.inputs(), shape.outputs(), kTransitions),
-      dqn_(MakeDqn(shape, options, threads)),
+UpdateLoop::UpdateLoop(const MlpShape& shape, const DqnOptions& options, int threads, int transitions)
+    : memory_(shape.inputs(), shape.outputs(), transitions),
+      dqn_(shape, InitialParameters(shape, 1), options, threads),
       batch_(shape.inputs(), shape.outputs(), options.batch_size) {
   RandomStream stream(1, RandomPurpose::kTest, 0, 0);
   std::vector<float> observation(static_cast<size_t>(shape.inputs()));
   std::vector<float> next_observation(observation.size());
   std::vector<uint8_t> mask(static_cast<size_t>(MaskSize(shape.outputs())));
-  for (int i = 0; i < kTransitions; ++i) {
+  for (int i = 0; i < transitions; ++i) {
     for (size_t row = 0; row < observation.size(); ++row) {
       observation[row] = static_cast<float>(stream.NextUniform());
       next_observation[row] = static_cast<float>(stream.NextUniform());
@@ -41,7 +28,7 @@ UpdateLoop::UpdateLoop(const MlpShape& shape, const DqnOptions& options, int thr
 void UpdateLoop::Step() {
   RandomStream stream(1, RandomPurpose::kReplaySampling, updates_++, 0);
   memory_.Sample(stream, batch_);
-  dqn_->Update(batch_, 1e-4);
+  dqn_.Update(batch_, 1e-4);
 }
 
 }  // namespace fresco

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "training/dqn.h"
 #include "training/replay_memory.h"
@@ -12,15 +11,15 @@ namespace fresco {
 
 class UpdateLoop {
  public:
-  /// Fills a replay memory of 40,000 random transitions. `shape` has at least 8 outputs.
-  UpdateLoop(const MlpShape& shape, const DqnOptions& options, int threads = 1);
+  /// Fills a replay memory of so many random transitions. `shape` has at least 8 outputs.
+  UpdateLoop(const MlpShape& shape, const DqnOptions& options, int threads = 1, int transitions = 40'000);
 
   /// Makes one update.
   void Step();
 
  private:
   ReplayMemory memory_;
-  std::unique_ptr<Dqn> dqn_;
+  Dqn dqn_;
   MiniBatch batch_;
   uint32_t updates_ = 0;
 };
