@@ -239,6 +239,7 @@ actor_status_t Actor::Status(int64_t now_us) {
   status.transitions = totals_.transitions;
   status.resent_episodes = totals_.resent_episodes;
   status.rejected_messages = totals().rejected.total();
+  status.processor_us = ProcessProcessorMicroseconds();
   status.transitions_per_s = static_cast<float>(rate_.Measure(totals_.transitions, now_us));
   status.weights_latency_ms = static_cast<float>(Milliseconds(totals_.longest_assembly_us));
   status.oldest_open_order = -1;

@@ -313,6 +313,11 @@ BusCounters LearnerNode::CountersLocked() const {
   return counters;
 }
 
+int64_t LearnerNode::ActorProcessorMicroseconds() const {
+  const std::lock_guard lock(mutex_);
+  return roster_.processor_us();
+}
+
 BusCounters LearnerNode::counters() const {
   const std::lock_guard lock(mutex_);
   return CountersLocked();

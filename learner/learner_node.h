@@ -47,6 +47,8 @@ class LearnerNode {
 
   // ---- Any thread.
   BusCounters counters() const;
+  /// Processor time of all actors while their statuses arrived here, microseconds.
+  int64_t ActorProcessorMicroseconds() const;
   /// Continues counting from these: those of the same run before it was resumed.
   void RestoreCounters(const BusCounters& counters);
   /// What the trainer waits for, for whom and in which stage; empty: nothing.

@@ -227,8 +227,11 @@ void LearnerProcess::WriteResults() {
   }
   folder_.WriteFinal(trainer_.current(), trainer_.progress());
   folder_.Finish();
-  folder_.WriteSummary(SummaryJson({experiment_, options_.run_id, trainer_.finished(), wall_s_, trainer_,
-                                    node_.counters(), optimum, resumptions_, checkpoints_, updating_}));
+  const ProcessorFigures processor = {ProcessProcessorMicroseconds(), ThreadProcessorMicroseconds(),
+                                      node_.ActorProcessorMicroseconds()};
+  folder_.WriteSummary(
+      SummaryJson({experiment_, options_.run_id, trainer_.finished(), wall_s_, trainer_, node_.counters(),
+                   optimum, resumptions_, checkpoints_, updating_, processor}));
 }
 
 MemoryNeed LearnerMemory(const Experiment& experiment) {

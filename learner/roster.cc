@@ -52,6 +52,10 @@ Roster::Hearing Roster::Hear(const actor_status_t& status, int64_t now_us) {
   if (status.sequence <= actor.sequence) {
     return Hearing::kStale;
   }
+  if (actor.sequence >= 0) {
+    processor_us_ += std::max<int64_t>(0, status.processor_us - actor.processor_us);
+  }
+  actor.processor_us = status.processor_us;
   actor.last_heard_us = now_us;
   actor.sequence = status.sequence;
   actor.capacity = std::clamp(status.capacity, 1, kLargestCapacity);

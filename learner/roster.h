@@ -24,6 +24,7 @@ struct ActorRecord {
   std::string host;
   int64_t oldest_open_order = -1;  ///< index; -1: none
   float transitions_per_s = 0;
+  int64_t processor_us = 0;            ///< processor time of its process
   std::vector<chunk_range_t> missing;  ///< chunks of networks that it lacks
   int late_orders = 0;                 ///< late orders that were taken from it since its last result
   int64_t last_assigned = 0;  ///< number of its latest assignment; equally loaded actors take turns by it
@@ -59,6 +60,8 @@ class Roster {
   int live_actors(int64_t now_us) const;
   /// How often a late order was given out again.
   int64_t late_orders() const { return late_orders_; }
+  /// Processor time that all actors took between their first and their last statuses, microseconds.
+  int64_t processor_us() const { return processor_us_; }
   /// A text for people: which actor's result of this order is awaited, since when, and what the actor is
   /// doing.
   std::string Awaited(const Order& order, int64_t now_us) const;
@@ -89,6 +92,7 @@ class Roster {
   std::map<int64_t, Assignment> assignments_;  // by order index
   int64_t assigned_ = 0;
   int64_t late_orders_ = 0;
+  int64_t processor_us_ = 0;
   double latency_us_ = 250'000;  // from giving an order out to its result, exponential average
 };
 

@@ -1,7 +1,7 @@
 #include "storage/optimum_search.h"
 
+#include <sched.h>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -10,6 +10,19 @@
 #include <exception>
 
 namespace fresco {
+
+namespace {
+
+constexpr double kSecondsPerMicrosecond = 1e-6;
+
+void SetPolicy(int thread_id, int policy) {
+  const sched_param parameters{};
+  if (sched_setscheduler(thread_id, policy, &parameters) != 0) {
+    spdlog::debug("the system refuses to change the priority of the search for the optimum");
+  }
+}
+
+}  // namespace
 
 const char* SearchEndName(SearchEnd end) {
   constexpr const char* kNames[] = {"off", "proved", "limit", "stopped", "failed"};
@@ -20,7 +33,6 @@ OptimumSearch::OptimumSearch(const World& world, Limits limits, ProcessorClock p
     : world_(&world),
       limits_(limits),
       processor_clock_(std::move(processor_clock)),
-      full_priority_(getpriority(PRIO_PROCESS, 0)),
       ended_(limits.processor_seconds <= 0 || !CanPlan(world)) {
   if (!ended_) {
     thread_ = std::thread([this] { Search(); });
@@ -31,13 +43,12 @@ OptimumSearch::~OptimumSearch() {
   Stop();
 }
 
-/// Lowers the priority of the calling thread, so that the training and the network threads go first.
+/// Lets the calling thread run only while the threads of training, network and actors need no processor.
 void OptimumSearch::SetLowPriority() {
-  constexpr int kLeastUrgent = 19;
   const std::lock_guard lock(mutex_);
   thread_id_ = static_cast<int>(syscall(SYS_gettid));
   if (!hurried_) {
-    setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id_), kLeastUrgent);
+    SetPolicy(thread_id_, SCHED_IDLE);
   }
 }
 
@@ -45,7 +56,7 @@ void OptimumSearch::SetFullPriority() {
   const std::lock_guard lock(mutex_);
   hurried_ = true;
   if (thread_id_ != 0 && !ended_) {  // after a thread has ended, another one may have its id
-    setpriority(PRIO_PROCESS, static_cast<id_t>(thread_id_), full_priority_);
+    SetPolicy(thread_id_, SCHED_OTHER);
   }
 }
 
@@ -64,7 +75,7 @@ void OptimumSearch::Search() {
   if (plan != nullptr) {
     bound_ = {plan->lower_bound_average_aoi, plan->optimal};
   }
-  result_ = {plan, EndOf(plan.get())};
+  result_ = {plan, EndOf(plan.get()), static_cast<double>(processor_clock_()) * kSecondsPerMicrosecond};
   ended_ = true;
   ended_changed_.notify_all();
 }
@@ -80,7 +91,7 @@ SearchEnd OptimumSearch::EndOf(const Plan* plan) const {
 }
 
 bool OptimumSearch::KeepGoing(const PlannerProgress& progress) {
-  const double processor_seconds = static_cast<double>(processor_clock_()) * 1e-6;
+  const double processor_seconds = static_cast<double>(processor_clock_()) * kSecondsPerMicrosecond;
   const std::lock_guard lock(mutex_);
   processor_seconds_ = processor_seconds;
   if (progress.lower_bound_average > 0) {

@@ -39,6 +39,7 @@ const char* SearchEndName(SearchEnd end);
 struct OptimumResult {
   std::shared_ptr<const Plan> plan = nullptr;  ///< null for kOff and kFailed
   SearchEnd end = SearchEnd::kOff;
+  double processor_seconds = 0;  ///< what the search took
 };
 
 class OptimumSearch {
@@ -65,8 +66,8 @@ class OptimumSearch {
   /// Seconds of processor time that the search may still take; 0 if it has ended.
   double processor_seconds_left() const;
 
-  /// Gives the search's thread the priority of the thread that constructed this object. The system may refuse
-  /// that to a program without privileges (RLIMIT_NICE); then the search keeps its low priority.
+  /// Until this is called, the search's thread runs only while a processor has nothing else to do
+  /// (SCHED_IDLE). The system may refuse the change to a program without privileges (RLIMIT_NICE).
   void SetFullPriority();
 
   /// Waits at most `timeout_us` until the search ends. Returns whether it has ended.
@@ -87,7 +88,6 @@ class OptimumSearch {
   const World* world_;
   Limits limits_;
   ProcessorClock processor_clock_;
-  int full_priority_;  // the nice value of the thread that constructed this object
   std::atomic<bool> stop_ = false;
   mutable std::mutex mutex_;
   std::condition_variable ended_changed_;

@@ -87,14 +87,25 @@ OrderedJson Counters(const BusCounters& counters) {
   return json;
 }
 
+double Seconds(int64_t microseconds) {
+  return 1e-6 * static_cast<double>(microseconds);
+}
+
 OrderedJson Updating(const std::optional<UpdatingFigures>& updating) {
-  constexpr double kSecondsPerMicrosecond = 1e-6;
-  const auto seconds = [](int64_t us) { return kSecondsPerMicrosecond * static_cast<double>(us); };
   return !updating ? OrderedJson()
-                   : OrderedJson({{"wall_s", seconds(updating->wall_us)},
+                   : OrderedJson({{"wall_s", Seconds(updating->wall_us)},
                                   {"updates", updating->updates},
-                                  {"training_thread_s", seconds(updating->training_thread_us)},
-                                  {"learner_s", seconds(updating->learner_us)}});
+                                  {"training_thread_s", Seconds(updating->training_thread_us)},
+                                  {"learner_s", Seconds(updating->learner_us)}});
+}
+
+OrderedJson ProcessorTimes(const SummaryInputs& inputs) {
+  const std::optional<ProcessorFigures>& processor = inputs.processor;
+  return !processor ? OrderedJson()
+                    : OrderedJson({{"learner", Seconds(processor->learner_us)},
+                                   {"training_thread", Seconds(processor->training_thread_us)},
+                                   {"optimum_search", inputs.optimum.processor_seconds},
+                                   {"actors", Seconds(processor->actors_us)}});
 }
 
 /// The evaluation that the run is judged by.
@@ -201,6 +212,7 @@ std::string SummaryJson(const SummaryInputs& inputs) {
       {"taken", inputs.checkpoints.taken},
       {"longest_pause_ms", 1e-3 * static_cast<double>(inputs.checkpoints.longest_pause_us)}};
   json["updating"] = Updating(inputs.updating);
+  json["processor_s"] = ProcessorTimes(inputs);
   json["software_version"] = kSoftwareVersion;
   return json.dump(2);
 }

@@ -53,6 +53,13 @@ struct UpdatingFigures {
   int64_t learner_us = 0;
 };
 
+/// Processor time by role, of this process since it began, and of all actors while they were heard.
+struct ProcessorFigures {
+  int64_t learner_us = 0;          ///< all threads of the learner
+  int64_t training_thread_us = 0;  ///< one of them
+  int64_t actors_us = 0;
+};
+
 /// Everything that a summary is made of.
 struct SummaryInputs {
   const Experiment& experiment;
@@ -64,7 +71,8 @@ struct SummaryInputs {
   OptimumResult optimum = {};
   int resumptions = 0;  ///< how often the run was resumed
   CheckpointFigures checkpoints = {};
-  std::optional<UpdatingFigures> updating = {};  ///< none: it made no update, or is no learner
+  std::optional<UpdatingFigures> updating = {};    ///< none: it made no update, or is no learner
+  std::optional<ProcessorFigures> processor = {};  ///< none: it is no learner
 };
 
 /// Returns the JSON object of summary.json.
@@ -78,6 +86,9 @@ struct SummaryInputs {
 ///  - `baselines` has the same of each reference policy of the world.
 ///  - `updating` has UpdatingFigures, in seconds; null if there are none. The training thread was busy for
 ///    training_thread_s / wall_s of the time.
+///  - `processor_s` has ProcessorFigures, in seconds, and the time of the search for the optimum, which is
+///  one
+///    of the learner's threads; null if there are none.
 /// Only worlds with a search for the optimum have the following:
 ///  - `optimum_search` says how the search ended (SearchEndName).
 ///  - `optimal_...` are the figures of the exact optimum; null if it is not proved.

@@ -30,6 +30,10 @@ class Train(FrescoTest):
             self.assertEqual(updating["updates"], summary["updates"] - 1)  # since the first
             self.assertLess(0, updating["training_thread_s"])
             self.assertLessEqual(updating["training_thread_s"], updating["learner_s"])
+            processor = summary["processor_s"]
+            self.assertLessEqual(updating["learner_s"], processor["learner"])
+            self.assertLessEqual(processor["training_thread"] + processor["optimum_search"], processor["learner"])
+            self.assertLess(0, processor["actors"])
             self.assertLess(updating["wall_s"], summary["wall_s"])
         self.assertEqual(proved["optimal_total_aoi"], 2789)
         self.assertAlmostEqual(proved["gap_percent"], 100 * (proved["total_aoi"] / 2789 - 1), places=6)

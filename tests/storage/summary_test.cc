@@ -256,6 +256,7 @@ TEST(CartPoleSummary, HasNothingOfAnOptimumOrBaselines) {
                                                     "staleness_updates",
                                                     "resumptions",
                                                     "updating",
+                                                    "processor_s",
                                                     "software_version",
                                                     "evaluation_episodes"}));
   EXPECT_EQ(summary.at("world"), Json::parse(R"({"name": "cartpole", "success": "balanced",
@@ -266,10 +267,15 @@ TEST(CartPoleSummary, HasNothingOfAnOptimumOrBaselines) {
 TEST(CartPoleSummary, GivesTheTimesOfUpdatingInSeconds) {
   const FinishedRun run(SmallCartPole());
   EXPECT_EQ(SummaryOf(run).at("updating"), Json());
+  EXPECT_EQ(SummaryOf(run).at("processor_s"), Json());
   SummaryInputs inputs{run.experiment, 1, true, 4.0, run.trainer, {}};
   inputs.updating = {2'500'000, 1'000, 2'000'000, 3'000'000};
   EXPECT_EQ(Json::parse(SummaryJson(inputs)).at("updating"),
             Json::parse(R"({"wall_s": 2.5, "updates": 1000, "training_thread_s": 2, "learner_s": 3})"));
+  inputs.processor = {4'000'000, 2'500'000, 8'500'000};
+  inputs.optimum.processor_seconds = 0.5;
+  EXPECT_EQ(Json::parse(SummaryJson(inputs)).at("processor_s"),
+            Json::parse(R"({"learner": 4, "training_thread": 2.5, "optimum_search": 0.5, "actors": 8.5})"));
 }
 
 // In CartPole an episode's figure is the number of its steps, and it succeeds with the most of these.
