@@ -4,9 +4,9 @@ include_guard(GLOBAL)
 add_library(fresco_compile_options INTERFACE)
 target_include_directories(fresco_compile_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(fresco_compile_options INTERFACE
-  -march=${FRESCO_INSTRUCTION_SET}
-  # The same expression must give the same bits wherever it is inlined: the compiler may not
-  # decide by itself which multiplications and additions it fuses. Eigen fuses explicitly.
+  # The same expression must give the same bits for every processor and wherever it is inlined: the compiler may not
+  # decide by itself which multiplications and additions it fuses. There is no -march: only the networks' arithmetic
+  # (nn/) needs instructions that not every processor has, and chooses them at the start.
   -ffp-contract=off
   # Nobody reads errno after a square root; lets loops with one be vectorised, with the same bits.
   -fno-math-errno)
@@ -23,7 +23,7 @@ add_library(fresco_warnings INTERFACE)
 target_compile_options(fresco_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast -Wcast-qual -Wunused
-  # gcc 12 reports its own AVX-512 intrinsics wherever Eigen uses them
+  # gcc 12 reports values of std::optional that were checked
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
   $<$<BOOL:${FRESCO_WARNINGS_AS_ERRORS}>:-Werror>)
 

@@ -11,34 +11,45 @@ static_assert(std::endian::native == std::endian::little, "checksums and files a
 
 constexpr uint32_t kReflectedPolynomial = 0x82F63B78u;
 
-constexpr std::array<uint32_t, 256> MakeTable() {
-  std::array<uint32_t, 256> table{};
+// Entry [n][byte] is what a byte that n bytes follow contributes to the remainder.
+using Tables = std::array<std::array<uint32_t, 256>, 8>;
+
+constexpr Tables MakeTables() {
+  Tables tables{};
   for (uint32_t byte = 0; byte < 256; ++byte) {
     uint32_t remainder = byte;
     for (int bit = 0; bit < 8; ++bit) {
       remainder = (remainder >> 1) ^ ((remainder & 1u) != 0 ? kReflectedPolynomial : 0u);
     }
-    table[byte] = remainder;
+    tables[0][byte] = remainder;
   }
-  return table;
+  for (size_t following = 1; following < tables.size(); ++following) {
+    for (size_t byte = 0; byte < 256; ++byte) {
+      const uint32_t nearer = tables[following - 1][byte];
+      tables[following][byte] = (nearer >> 8) ^ tables[0][nearer & 0xFFu];
+    }
+  }
+  return tables;
 }
 
-constexpr std::array<uint32_t, 256> kTable = MakeTable();
+constexpr Tables kTables = MakeTables();
 
 }  // namespace
 
 uint32_t Crc32c(std::span<const std::byte> bytes, uint32_t previous) {
   uint32_t crc = ~previous;
   size_t i = 0;
-#ifdef __SSE4_2__
-  for (; i + sizeof(uint64_t) <= bytes.size(); i += sizeof(uint64_t)) {
-    uint64_t word;
+  for (; i + kTables.size() <= bytes.size(); i += kTables.size()) {
+    uint64_t word = 0;
     std::memcpy(&word, bytes.data() + i, sizeof word);
-    crc = static_cast<uint32_t>(__builtin_ia32_crc32di(crc, word));
+    word ^= crc;
+    crc = 0;
+    for (size_t byte = 0; byte < kTables.size(); ++byte) {
+      crc ^= kTables[kTables.size() - 1 - byte][word >> (8 * byte) & 0xFFu];
+    }
   }
-#endif
   for (; i < bytes.size(); ++i) {
-    crc = (crc >> 8) ^ kTable[(crc ^ static_cast<uint32_t>(bytes[i])) & 0xFFu];
+    crc = (crc >> 8) ^ kTables[0][(crc ^ static_cast<uint32_t>(bytes[i])) & 0xFFu];
   }
   return ~crc;
 }

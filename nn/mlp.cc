@@ -210,17 +210,20 @@ void Mlp::BackwardColumns(const OutputGradient& output_gradient, ColumnRange col
   }
   const int units = shape_.layer_inputs(last);
   const Matrix& transposed = workspace.transposed_[static_cast<size_t>(last)];
-  for (int column = columns.first; column < columns.end; ++column) {
-    const float value = output_gradient.values[static_cast<size_t>(column)];
-    const float* __restrict weights =
-        transposed.col(output_gradient.units[static_cast<size_t>(column)]).data();
-    const float* __restrict below = workspace.activations_[static_cast<size_t>(last)].col(column).data();
-    float* __restrict gradient = workspace.gradients_[static_cast<size_t>(last)].col(column).data();
-    for (int unit = 0; unit < units; ++unit) {
-      gradient[unit] = below[unit] > 0.0f ? weights[unit] * value : 0.0f;
-    }
-  }
   const Arithmetic& arithmetic = CurrentArithmetic();
+  for (int column = columns.first; column < columns.end; ++column) {
+    const auto i = static_cast<size_t>(column);
+    Product product;
+    product.rows = units;
+    product.columns = 1;
+    product.inner = 1;
+    product.a = transposed.col(output_gradient.units[i]).data();
+    product.b = &output_gradient.values[i];
+    product.result = workspace.gradients_[static_cast<size_t>(last)].col(column).data();
+    product.finish = Finish::kGate;
+    product.gate = workspace.activations_[static_cast<size_t>(last)].col(column).data();
+    arithmetic.multiply(product);
+  }
   for (int column = columns.first; column < columns.end; column += kColumnsAtOnce) {
     for (int layer = last - 1; layer > 0; --layer) {
       const Matrix& weights = workspace.transposed_[static_cast<size_t>(layer)];

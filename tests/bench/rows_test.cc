@@ -75,7 +75,7 @@ TEST(Rows, OfSubjectsThatAreNotAskedForAreNotMeasured) {
 TEST(Rows, AreAnObjectInJson) {
   const auto json = nlohmann::json::parse(BenchJson(SomeHead(), Measured({"fast", "missing"})));
   EXPECT_EQ(json, nlohmann::json::parse(R"({
-    "machine": {"processor": "a processor", "cores": 2, "instruction_set": "AVX2", "compiler": "gcc 12 -O3"},
+    "machine": {"processor": "a processor", "cores": 2, "arithmetic": "x86-64-v3", "compiler": "gcc 12 -O3"},
     "commit": "abc1234",
     "rows": [{"name": "fast", "value": 30, "unit": "m/s", "reference": "a horse", "reference_value": 15, "ratio": 2}],
     "absent": [{"name": "missing", "reason": "not installed"}]})"));
