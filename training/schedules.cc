@@ -40,7 +40,8 @@ double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t trans
   if (schedule.has_ladder()) {
     const proto::LadderEpsilon& ladder = schedule.ladder();
     const auto rung = static_cast<double>(episode % ladder.rungs());
-    return std::pow(ladder.base(), 1 + ladder.exponent() * rung / (ladder.rungs() - 1));
+    // Rounded to single precision, since mathematical libraries differ in the last bits of double precision.
+    return static_cast<float>(std::pow(ladder.base(), 1 + ladder.exponent() * rung / (ladder.rungs() - 1)));
   }
   const proto::LinearEpsilon& linear = schedule.linear();
   return std::max(linear.minimum(), linear.initial() - linear.decrement() * static_cast<double>(transitions));

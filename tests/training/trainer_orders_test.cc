@@ -99,7 +99,7 @@ TEST(TrainerOrders, ExploreByTheLadderOfTheTrainingEpisodes) {
   int64_t episode = 0;
   for (const Order& order : run.orders) {
     if (order.kind == OrderKind::kTrain) {
-      EXPECT_NEAR(order.epsilon, std::pow(0.4, 1 + static_cast<double>(episode % 8)), 1e-15) << episode;
+      EXPECT_NEAR(order.epsilon, std::pow(0.4, 1 + static_cast<double>(episode % 8)), 1e-7) << episode;
       ++episode;
     } else {
       EXPECT_EQ(order.epsilon, 0) << order.index;

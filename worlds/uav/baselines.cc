@@ -91,8 +91,7 @@ int Baseline::NextOfRound(Cell cell, int served_now) {
   double smallest_m = std::numeric_limits<double>::infinity();
   for (int index = 0; index < world_->sensors(); ++index) {
     const Sensor& sensor = scenario.sensors[static_cast<size_t>(index)];
-    const double distance_m =
-        std::hypot(sensor.x_m - cell.column * scenario.cell_m, sensor.y_m - cell.row * scenario.cell_m);
+    const double distance_m = HorizontalDistance(cell, scenario.cell_m, sensor);
     if (served_[static_cast<size_t>(index)] == 0 && distance_m < smallest_m) {
       nearest = index;
       smallest_m = distance_m;

@@ -1,7 +1,6 @@
 #include "worlds/uav/network_input.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
 #include "worlds/uav/flight.h"
@@ -15,9 +14,8 @@ float Share(int position, int cells) {
 
 /// The horizontal distance, divided by the grid's longer side.
 float ScaledDistance(const Scenario& scenario, Cell cell, const Sensor& sensor) {
-  const double distance_m =
-      std::hypot(cell.column * scenario.cell_m - sensor.x_m, cell.row * scenario.cell_m - sensor.y_m);
-  return static_cast<float>(distance_m / (std::max(scenario.columns, scenario.rows) * scenario.cell_m));
+  return static_cast<float>(HorizontalDistance(cell, scenario.cell_m, sensor) /
+                            (std::max(scenario.columns, scenario.rows) * scenario.cell_m));
 }
 
 }  // namespace

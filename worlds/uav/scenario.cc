@@ -1,9 +1,17 @@
 #include "worlds/uav/scenario.h"
 
+#include <cmath>
+
 #include "core/error.h"
 #include "core/random.h"
 
 namespace fresco {
+
+double HorizontalDistance(Cell cell, double cell_m, const Sensor& sensor) {
+  const double x_m = cell.column * cell_m - sensor.x_m;
+  const double y_m = cell.row * cell_m - sensor.y_m;
+  return std::sqrt(x_m * x_m + y_m * y_m);
+}
 
 std::vector<Sensor> RandomSensors(int columns, int rows, double cell_m, int count, uint64_t seed) {
   FRESCO_CHECK(count >= 0);

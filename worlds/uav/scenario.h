@@ -71,6 +71,10 @@ struct Scenario {
   std::optional<int> maximum_aoi;  ///< delta_max, AoI grows no further, slots; none: no limit
 };
 
+/// The horizontal distance of a sensor from a cell's centre, metres. Unlike std::hypot, it has the same bits
+/// with every mathematical library. `cell_m` is the side of a cell.
+double HorizontalDistance(Cell cell, double cell_m, const Sensor& sensor);
+
 /// Returns `count` >= 0 sensors of weight 1 at random places, uniform over the whole area of the grid, which
 /// reaches half a cell beyond the centres of the outermost cells. A pure function of its arguments; any
 /// thread may call it.

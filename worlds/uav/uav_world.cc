@@ -141,10 +141,11 @@ double RoundTo(double value, double quantum) {
 }
 
 // Whether the horizontal distance is at most R, with a tolerance of a billionth, so that a radius converted
-// to a transmission power and back covers the same cells.
-bool Within(double x_m, double y_m, const Sensor& sensor, double radius_m) {
+// to a transmission power and back covers the same cells, and so does one whose last bits depend on the
+// mathematical library.
+bool Within(const Scenario& scenario, Cell cell, const Sensor& sensor) {
   constexpr double kLeeway = 1 + 1e-9;
-  return std::hypot(x_m - sensor.x_m, y_m - sensor.y_m) <= radius_m * kLeeway;
+  return HorizontalDistance(cell, scenario.cell_m, sensor) <= scenario.coverage_radius_m * kLeeway;
 }
 
 }  // namespace
@@ -219,8 +220,7 @@ void UavWorld::DeriveCoverage() {
   for (int row = 0; row < scenario_.rows; ++row) {
     for (int column = 0; column < scenario_.columns; ++column) {
       for (const Sensor& sensor : scenario_.sensors) {
-        coverage_.push_back(
-            Within(column * scenario_.cell_m, row * scenario_.cell_m, sensor, scenario_.coverage_radius_m));
+        coverage_.push_back(Within(scenario_, {column, row}, sensor));
       }
     }
   }
