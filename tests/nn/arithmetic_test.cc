@@ -149,6 +149,29 @@ TEST_P(ArithmeticTest, RoundsEachMultiplicationAndAdditionOnce) {
   }
 }
 
+TEST_P(ArithmeticTest, RoundsSumsNearTheMiddleOfTwoFloatsOnce) {
+  // The product is half of the sum's last bit but for a last bit of its factors. Its size goes down to where
+  // floats have fewer bits.
+  for (const int exponent : {0, -100, -124, -125, -126, -130}) {
+    const float even = std::ldexp(1.0f, exponent);
+    const float odd = std::nextafter(even, 1.0f);
+    for (int bit = 1; bit <= 48; ++bit) {
+      for (int other_bit = 1; other_bit <= 24; ++other_bit) {
+        const float factor = std::ldexp(1.0f, -12) * (1 + std::ldexp(bit % 2 == 0 ? 1.0f : -1.0f, -bit / 2));
+        const float other = std::ldexp(1.0f, exponent - 12) * (1 + std::ldexp(1.0f, -other_bit));
+        const std::vector<float> x = {other, -other, other, -other, std::ldexp(other, -40)};
+        std::vector<float> sums = {even, even, odd, odd, 0.0f};
+        std::vector<float> expected = sums;
+        for (size_t i = 0; i < x.size(); ++i) {
+          expected[i] = std::fma(factor, x[i], expected[i]);
+        }
+        arithmetic().add_scaled(static_cast<int>(x.size()), factor, x.data(), sums.data());
+        ASSERT_EQ(sums, expected) << exponent << " " << bit << " " << other_bit;
+      }
+    }
+  }
+}
+
 TEST_P(ArithmeticTest, AddsScaledVectorsOfEveryLength) {
   for (int count = 0; count <= 70; ++count) {
     const std::vector<float> x = WideFloats(stream_, count + 1);
