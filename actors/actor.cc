@@ -91,7 +91,7 @@ void Actor::Join(const run_t& message, const std::string& text) {
     if (message.arithmetic_fingerprint != arithmetic_fingerprint_) {
       throw UsageError(fmt::format(
           "its arithmetic fingerprint is {:08x}, this actor's is {:08x}: the results would differ in "
-          "their bits; build both with the same compiler and FRESCO_INSTRUCTION_SET",
+          "their bits; use the same release on both hosts, without compiler options like -ffast-math",
           message.arithmetic_fingerprint, arithmetic_fingerprint_));
     }
     RefuseOtherCode(Experiment::CodeIn(text, channels_.run));

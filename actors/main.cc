@@ -8,6 +8,8 @@
 #include "core/command_line.h"
 #include "core/identifier.h"
 #include "core/signals.h"
+#include "nn/arithmetic.h"
+#include "nn/arithmetic_option.h"
 
 namespace fresco {
 namespace {
@@ -47,7 +49,7 @@ void Serve(const Arguments& arguments) {
   constexpr int64_t kWaitUs = 2'000;
   const std::unique_ptr<Bus> bus = OpenBus(arguments.lcm_url, arguments.bus);
   Actor actor(*bus, ChannelsWithPrefix(arguments.channel_prefix), OptionsFrom(arguments));
-  spdlog::info("waiting for a run on {}", arguments.lcm_url);
+  spdlog::info("waiting for a run on {}; arithmetic {}", arguments.lcm_url, CurrentArithmetic().name);
   while (!StopSignal::Requested() && !(arguments.once && actor.run_over())) {
     const bool busy = actor.Step(MonotonicMicroseconds());
     bus->Poll(busy ? 0 : kWaitUs);
@@ -77,6 +79,7 @@ int Main(int argc, char** argv) {
   app.add_option(
       "--allow-code", arguments.allowed_code,
       "A plug-in's library or a Python module's file that a run may make this actor run; may be repeated");
+  AddArithmeticOption(app);
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");
   return program.Run(argc, argv, [&] {
     Serve(arguments);

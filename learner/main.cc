@@ -9,6 +9,8 @@
 #include "learner/learner_process.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
+#include "nn/arithmetic.h"
+#include "nn/arithmetic_option.h"
 #include "storage/checkpoint_folder.h"
 
 namespace fresco {
@@ -25,8 +27,8 @@ struct Arguments {
 };
 
 int Run(const Experiment& experiment, Bus& bus, LearnerOptions options) {
-  spdlog::info("run {}, configuration {:08x}, on {}", IdentifierText(options.run_id), experiment.hash(),
-               experiment.run().lcm_url());
+  spdlog::info("run {}, configuration {:08x}, on {}; arithmetic {}", IdentifierText(options.run_id),
+               experiment.hash(), experiment.run().lcm_url(), CurrentArithmetic().name);
   return LearnerProcess(experiment, bus, std::move(options)).Run() ? 0 : 1;
 }
 
@@ -77,6 +79,7 @@ int Main(int argc, char** argv) {
       ->excludes(out);
   app.add_option("--run-id", arguments.run_id, "Id of the run (16 hexadecimal digits); default: a random id");
   AddBusOptions(app, arguments.bus);
+  AddArithmeticOption(app);
   return program.Run(argc, argv, [&] {
     Settings settings = ParseSettings(arguments.settings);
     if (!arguments.lcm_url.empty()) {

@@ -46,17 +46,23 @@ std::span<const Arithmetic* const> AvailableArithmetics() {
   return available;
 }
 
-void UseArithmetic(std::string_view name) {
+std::string ArithmeticNames() {
   std::string names;
+  for (const Arithmetic* arithmetic : AvailableArithmetics()) {
+    names += (names.empty() ? "" : ", ") + std::string(arithmetic->name);
+  }
+  return names;
+}
+
+void UseArithmetic(const std::string& name) {
   for (const Arithmetic* arithmetic : AvailableArithmetics()) {
     if (arithmetic->name == name) {
       Current() = arithmetic;
       return;
     }
-    names += (names.empty() ? "" : ", ") + std::string(arithmetic->name);
   }
-  throw UsageError("arithmetic: expected one that this processor has (" + names + "); found " +
-                   std::string(name));
+  throw UsageError("--arithmetic: expected one that this build has for this processor (" + ArithmeticNames() +
+                   "), found \"" + name + "\"");
 }
 
 }  // namespace fresco

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "nn/arithmetic_kernels.h"
 
@@ -15,8 +15,11 @@ const Arithmetic& CurrentArithmetic();
 /// Those that this processor can run, the fastest first.
 std::span<const Arithmetic* const> AvailableArithmetics();
 
+/// Their names, as a list for texts.
+std::string ArithmeticNames();
+
 /// From now on uses the implementation with this name. Throws UsageError that lists the names if this
-/// processor has none. No other thread may compute meanwhile.
-void UseArithmetic(std::string_view name);
+/// processor can run none. No other thread may compute meanwhile.
+void UseArithmetic(const std::string& name);
 
 }  // namespace fresco

@@ -144,8 +144,8 @@ class Mlp {
 };
 
 /// Returns the CRC-32C of the outputs of a fixed network on fixed observations. Two programs with the same
-/// value do arithmetic alike. An actor with another value than the learner's does not fly, since its binary
-/// would give other bits. Computed at the first call; any thread may call it.
+/// value do arithmetic alike. An actor with another value than the learner's does not fly, since its results
+/// would have other bits. Computed at the first call; any thread may call it.
 uint32_t ArithmeticFingerprint();
 
 }  // namespace fresco

@@ -13,6 +13,7 @@
 #include "learner/learner_process.h"
 #include "msgs/channels.h"
 #include "msgs/worlds.h"
+#include "nn/arithmetic.h"
 
 namespace fresco {
 namespace {
@@ -26,7 +27,9 @@ void CheckRunFolder(const std::filesystem::path& folder, RunFolder::Use use) {
   }
 }
 
-void AddBusArguments(const BusOptions& options, std::vector<std::string>& command) {
+/// What every process of a run gets.
+void AddCommonArguments(const BusOptions& options, std::vector<std::string>& command) {
+  command.insert(command.end(), {"--arithmetic", CurrentArithmetic().name});
   if (options.key_file) {
     command.insert(command.end(), {"--key-file", options.key_file->string()});
   }
@@ -68,7 +71,7 @@ std::vector<std::string> ActorCommand(const Experiment& experiment, const BusOpt
   if (const std::string code = CodeOf(experiment.config()); !code.empty()) {
     command.insert(command.end(), {"--allow-code", code});
   }
-  AddBusArguments(bus_options, command);
+  AddCommonArguments(bus_options, command);
   return command;
 }
 
@@ -213,7 +216,7 @@ std::vector<std::string> TrainingRun::LearnerCommand() {
     command.insert(command.end(),
                    {"--config", (folder_ / "config.textproto").string(), "--out", folder_.string()});
   }
-  AddBusArguments(NextBusOptions(), command);
+  AddCommonArguments(NextBusOptions(), command);
   return command;
 }
 

@@ -14,6 +14,7 @@
 #include "core/signals.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
+#include "nn/arithmetic_option.h"
 #include "storage/checkpoint_file.h"
 #include "storage/run_folder.h"
 #include "training/flyer.h"
@@ -138,6 +139,7 @@ void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
          [&choice](int64_t megabytes) { choice.limits.memory_bytes = megabytes * 1'000'000; },
          "For the policy optimal: memory that the search may take; default: 2684")
       ->check(CLI::Range(1, 1'000'000));
+  AddArithmeticOption(app);
 }
 
 ChosenPolicy ReadChoice(const PolicyChoice& choice) {

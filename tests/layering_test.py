@@ -20,7 +20,7 @@ ALLOWED = {
     "actors": {"core", "nn", "worlds", "bus", "msgs", "training"},
     "learner": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage"},
     "logs": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage"},
-    "processes": {"core", "bus", "msgs", "storage", "actors", "learner"},
+    "processes": {"core", "nn", "bus", "msgs", "storage", "actors", "learner"},
     "report": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage", "processes"},
     "paper": {"core", "worlds", "planner", "bus", "msgs", "storage", "processes", "report"},
     "soak": {"core", "bus", "msgs", "storage", "processes", "report"},

@@ -13,6 +13,7 @@
 #include "core/installation.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
+#include "nn/arithmetic_option.h"
 #include "paper/figure_writer.h"
 #include "tools/subcommands.h"
 
@@ -106,6 +107,7 @@ void AddFigures(CLI::App& app, Command& command) {
       ->check(CLI::Range(1, 256));
   figures->add_option("--lcm-url", options->lcm_url, "Where learners and actors meet");
   AddBusOptions(*figures, options->bus);
+  AddArithmeticOption(*figures);
   figures->add_flag("--quick", options->quick, "A small version: few points, short training");
   figures->callback([options, &command] { command = [options] { return WriteFigures(*options); }; });
 }

@@ -11,6 +11,7 @@
 #include "logs/retrain_run.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
+#include "nn/arithmetic_option.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
 #include "storage/run_folder.h"
@@ -83,8 +84,8 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
 void WarnOfOtherArithmetic(const LoggedRun& run) {
   if (run.arithmetic_fingerprint && *run.arithmetic_fingerprint != ArithmeticFingerprint()) {
     spdlog::warn(
-        "another build of Fresco or another kind of processor recorded this run; its arithmetic gives other "
-        "bits, so the weights will differ from the recorded ones");
+        "another build of Fresco recorded this run; its arithmetic gives other bits, so the weights will "
+        "differ from the recorded ones");
   }
 }
 
@@ -129,6 +130,7 @@ void AddRetrain(CLI::App& app, Command& command) {
   retrain->add_option("--run", options->run,
                       "Id of the run in the log (16 hexadecimal digits); default: the only one");
   AddKeyFileOption(*retrain, options->key_file);
+  AddArithmeticOption(*retrain);
   retrain->add_flag("--strict", options->strict,
                     "Fail if the log misses an episode, instead of flying it again");
   retrain->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");

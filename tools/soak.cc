@@ -16,6 +16,7 @@
 #include "core/signals.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
+#include "nn/arithmetic_option.h"
 #include "processes/training_run.h"
 #include "soak/soak_report.h"
 #include "soak/soak_round.h"
@@ -241,6 +242,7 @@ void AddSoak(CLI::App& app, Command& command) {
   soak->add_option("--out", options->out, "New folder for the runs; default: one under runs/");
   soak->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
   AddKeyFileOption(*soak, options->key_file);
+  AddArithmeticOption(*soak);
   soak->add_option("--memory-allowance-mib", options->memory_allowance_mib,
                    "Under faults, a program may need 1.25 times its memory without faults plus so much; the "
                    "soak itself may grow by twice as much over its rounds")

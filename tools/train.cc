@@ -12,6 +12,7 @@
 #include "core/signals.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
+#include "nn/arithmetic_option.h"
 #include "processes/training_run.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
@@ -158,6 +159,7 @@ void AddTrain(CLI::App& app, Command& command) {
       ->needs(record)
       ->check(CLI::Range(0.001, 1e9));
   AddBusOptions(*train, options->bus);
+  AddArithmeticOption(*train);
   train->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
   train->callback([options, &command] {
     command = [options] { return options->resume.empty() ? TrainAnew(*options) : GoOn(*options); };

@@ -10,7 +10,8 @@
 #include "core/command_line.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "nn/mlp.h"
+#include "nn/arithmetic.h"
+#include "nn/arithmetic_option.h"
 #include "tests/bench/subjects.h"
 
 namespace fresco {
@@ -45,8 +46,8 @@ std::string ProcessorName() {
 }
 
 BenchHead Head() {
-  return {ProcessorName(), static_cast<int>(std::thread::hardware_concurrency()),
-          Eigen::SimdInstructionSetsInUse(), FRESCO_BENCH_COMPILER, FRESCO_BENCH_COMMIT};
+  return {ProcessorName(), static_cast<int>(std::thread::hardware_concurrency()), CurrentArithmetic().name,
+          FRESCO_BENCH_COMPILER, FRESCO_BENCH_COMMIT};
 }
 
 std::vector<std::string> RowsToMeasure(const std::vector<Subject>& subjects, const BenchArguments& arguments,
@@ -93,6 +94,7 @@ int Main(int argc, char** argv) {
   app.add_option("--seconds", arguments.seconds, "How long a row takes, about; some take longer")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();
+  AddArithmeticOption(app);
   app.add_option("--format", arguments.format, "text or json")->check(OneOf({"text", "json"}));
   app.add_option(
       "--check", arguments.check,

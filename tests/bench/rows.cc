@@ -98,7 +98,7 @@ Results MeasureRows(const std::vector<Subject>& subjects, const std::vector<std:
 
 std::string BenchTable(const BenchHead& head, const Results& results) {
   std::string text = fmt::format("machine   {}, {} cores, {}\ncompiler  {}\ncommit    {}\n\n", head.processor,
-                                 head.cores, head.instruction_set, head.compiler, head.commit);
+                                 head.cores, head.arithmetic, head.compiler, head.commit);
   size_t name_width = 3;
   size_t unit_width = 4;
   for (const Row& row : results.rows) {
@@ -125,7 +125,7 @@ std::string BenchJson(const BenchHead& head, const Results& results) {
   OrderedJson json;
   json["machine"] = {{"processor", head.processor},
                      {"cores", head.cores},
-                     {"instruction_set", head.instruction_set},
+                     {"arithmetic", head.arithmetic},
                      {"compiler", head.compiler}};
   json["commit"] = head.commit;
   json["rows"] = OrderedJson::array();

@@ -50,7 +50,7 @@ Results AllAbsent(const std::vector<std::string>& names, const std::string& reas
 struct BenchHead {
   std::string processor;
   int cores = 0;
-  std::string instruction_set;
+  std::string arithmetic;
   std::string compiler;  ///< with its flags
   std::string commit;
 };

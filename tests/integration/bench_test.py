@@ -19,7 +19,7 @@ class Bench(FrescoTest):
         output, progress = self.run_fresco("bench", "--filter", "environment", "--format", "json", *SHORT)
         result = json.loads(output)
         self.assertEqual(set(result), {"machine", "commit", "rows", "absent"})
-        self.assertEqual(set(result["machine"]), {"processor", "cores", "instruction_set", "compiler"})
+        self.assertEqual(set(result["machine"]), {"processor", "cores", "arithmetic", "compiler"})
         self.assertEqual([row["name"] for row in result["rows"]], ENVIRONMENTS)
         for row in result["rows"]:
             self.assertEqual(set(row), {"name", "value", "unit", "reference", "reference_value", "ratio"})

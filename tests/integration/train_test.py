@@ -36,6 +36,26 @@ class Train(FrescoTest):
         other = self.train(17301, "seed-2", "--seed", 2, *NO_SEARCH)
         self.assertNotEqual(other["weights_crc32c"], summaries[0]["weights_crc32c"])
 
+    def test_gives_the_same_weights_with_every_arithmetic(self):
+        _, refusal = self.run_fresco("train", "--arithmetic", "x87", expect=2)
+        names = re.search(r"--arithmetic: expected one that this build has for this processor \((.*)\), found \"x87\"",
+                          refusal).group(1).split(", ")
+        self.assertIn("portable", names)
+        settings = ("--set", "schedule.episodes=150", *NO_SEARCH)
+        weights = set()
+        for name in names:
+            weights.add(self.train(17432, name, "--arithmetic", name, *settings)["weights_crc32c"])
+            for process in ("learner", "actor-0"):
+                self.assertIn(f"; arithmetic {name}\n", (self.folder / name / f"{process}.log").read_text())
+        actors = [self.start("--lcm-url", url(17432), "--once", "--arithmetic", name, program="fresco-actor")
+                  for name in names]  # all in one run
+        weights.add(self.train(17432, "mixed", "--actors", 0, *settings)["weights_crc32c"])
+        self.assertEqual(len(weights), 1)
+        for actor, name in zip(actors, names):
+            _, log = actor.communicate(timeout=30)
+            self.assertIn(f"; arithmetic {name}\n", log)
+            self.assertNotIn("serving no run", log)
+
     def test_gives_the_same_weights_when_actors_are_killed(self):
         settings = ("--set", "schedule.episodes=1000", *NO_SEARCH)
         undisturbed = self.train(17302, "undisturbed", *settings)

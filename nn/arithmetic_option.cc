@@ -1,0 +1,16 @@
+#include "nn/arithmetic_option.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "nn/arithmetic.h"
+
+namespace fresco {
+
+void AddArithmeticOption(CLI::App& app) {
+  app.add_option_function<std::string>(
+      "--arithmetic", UseArithmetic,
+      "How networks are computed, the fastest by default: " + ArithmeticNames() + "; all give the same bits");
+}
+
+}  // namespace fresco
