@@ -26,7 +26,7 @@ std::string SameRunText(const RetrainReport& report) {
   if (counts.different_versions > 0) {
     text += fmt::format(
         "NOT the recorded run: {} of the {} network versions in the log differ, from version {} on; another "
-        "build of Fresco or another kind of processor recorded it, or the log was changed\n",
+        "build of Fresco recorded it, or the log was changed\n",
         counts.different_versions, counts.compared_versions, counts.first_different_version);
   } else if (counts.compared_versions > 0) {
     text += fmt::format("the recorded run: all {} versions of its networks in the log have the same bits\n",

@@ -42,8 +42,8 @@ void CheckOrigin(const Checkpoint& checkpoint, const Experiment& experiment, con
   if (checkpoint.arithmetic_fingerprint != ArithmeticFingerprint()) {
     throw UsageError(
         fmt::format("--resume: {} was made with arithmetic {:08x}, but this program's is {:08x}, so the "
-                    "weights would have "
-                    "other bits; resume with the same build on the same kind of processor",
+                    "weights would have other bits; resume with the same release, built without compiler "
+                    "options like -ffast-math",
                     path, checkpoint.arithmetic_fingerprint, ArithmeticFingerprint()));
   }
 }
