@@ -40,7 +40,7 @@ Results Measured(const std::vector<std::string>& names) {
 }
 
 BenchHead SomeHead() {
-  return {"a processor", 2, "AVX2", "gcc 12 -O3", "abc1234"};
+  return {"a processor", 2, "x86-64-v3", "gcc 12 -O3", "abc1234"};
 }
 
 TEST(Rows, HaveARatioThatIsLargerTheBetter) {
@@ -83,7 +83,7 @@ TEST(Rows, AreAnObjectInJson) {
 
 TEST(Rows, AreATableForPeople) {
   EXPECT_EQ(BenchTable(SomeHead(), Measured({"fast", "slow", "missing"})),
-            "machine   a processor, 2 cores, AVX2\n"
+            "machine   a processor, 2 cores, x86-64-v3\n"
             "compiler  gcc 12 -O3\n"
             "commit    abc1234\n\n"
             "row        value  unit   reference   ratio  the reference is\n"

@@ -215,7 +215,7 @@ TEST_F(ResumptionTest, LetsOnlyTheRunSectionChange) {
 
 TEST_F(ResumptionTest, RefusesACheckpointOfAnotherArithmetic) {
   Write(NextCheckpoint(run_.experiment, ArithmeticFingerprint() ^ 1));
-  EXPECT_THAT(Refusal(), HasSubstr("same build"));
+  EXPECT_THAT(Refusal(), HasSubstr("same release"));
 }
 
 TEST_F(ResumptionTest, RefusesAFolderWithoutARunAndACompleteRun) {

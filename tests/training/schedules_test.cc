@@ -40,7 +40,8 @@ TEST(Schedules, ClimbTheLadderOfApeX) {
   schedule.mutable_ladder();  // base 0.4, exponent 7, 8 rungs: 0.4^(1 + 7 i / 7)
   const std::vector<double> rungs = {0.4, 0.16, 0.064, 0.0256, 0.01024, 0.004096, 0.0016384, 0.00065536};
   for (int64_t episode = 0; episode < 40; ++episode) {
-    EXPECT_NEAR(EpsilonOf(schedule, episode, 1000), rungs[static_cast<size_t>(episode % 8)], 1e-16);
+    EXPECT_EQ(EpsilonOf(schedule, episode, 1000),
+              static_cast<float>(rungs[static_cast<size_t>(episode % 8)]));
   }
 }
 
@@ -50,7 +51,7 @@ TEST(Schedules, ClimbALadderOfOtherRungs) {
   schedule.mutable_ladder()->set_exponent(3);
   schedule.mutable_ladder()->set_rungs(3);
   EXPECT_DOUBLE_EQ(EpsilonOf(schedule, 0, 0), 0.5);
-  EXPECT_NEAR(EpsilonOf(schedule, 1, 0), 0.1767766952966369, 1e-15);  // 2^-2.5
+  EXPECT_EQ(EpsilonOf(schedule, 1, 0), 0.1767766952966369f);  // 2^-2.5
   EXPECT_DOUBLE_EQ(EpsilonOf(schedule, 2, 0), 0.0625);
   EXPECT_DOUBLE_EQ(EpsilonOf(schedule, 3, 0), 0.5);
 }
