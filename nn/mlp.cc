@@ -280,7 +280,7 @@ void Mlp::BackwardPart(const OutputGradient& output_gradient, int batch, const P
   product.result_stride = outputs;
   arithmetic.multiply(product);
   if (part.end_input == shape_.layer_inputs(part.layer)) {
-    float* biases = gradient.data() + shape_.biases_offset(part.layer) - part.first;
+    float* biases = gradient.data() + (shape_.biases_offset(part.layer) - part.first);
     std::fill_n(biases, outputs, 0.0f);
     for (int column = 0; column < batch; ++column) {
       arithmetic.add_scaled(outputs, 1.0f, above.col(column).data(), biases);
@@ -304,7 +304,7 @@ void Mlp::LastLayerGradient(const OutputGradient& output_gradient, int batch, co
   }
   Eigen::Map<Matrix>(gradient.data(), outputs, inputs) = transposed.transpose();
   if (part.end_input == shape_.layer_inputs(part.layer)) {
-    float* biases = gradient.data() + shape_.biases_offset(part.layer) - part.first;
+    float* biases = gradient.data() + (shape_.biases_offset(part.layer) - part.first);
     std::fill_n(biases, outputs, 0.0f);
     for (int column = 0; column < batch; ++column) {
       const auto i = static_cast<size_t>(column);

@@ -3,6 +3,8 @@
 //
 // The roof is the forward passes alone, of the current and the target network at the width of all
 // environments.
+//
+// message_bytes: what these messages take on the wire, without the headers of UDP and LCM.
 #include "msgs/ready_experiments.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/flying_actor.h"
@@ -36,10 +38,23 @@ Results ActorBesideRoof(double seconds) {
       {}};
 }
 
+Results MessageBytes(double) {
+  const Experiment experiment = Experiment::Load(ExperimentPath(kDefaultExperiment));
+  FlyingActor actor(experiment);
+  actor.Fly();
+  const World& world = experiment.world();
+  const auto payload =
+      static_cast<double>(static_cast<size_t>(world.state_size()) * sizeof(float) + sizeof(int16_t) +
+                          sizeof(float) + static_cast<size_t>(MaskSize(world.actions())));
+  return {{LessIsBetter("message_bytes", actor.bytes_per_transition(), "B/transition",
+                        "state, action, reward and mask alone", payload)},
+          {}};
+}
+
 }  // namespace
 
 std::vector<Subject> ActorSubjects() {
-  return {{{"actor_roof"}, ActorBesideRoof}};
+  return {{{"actor_roof"}, ActorBesideRoof}, {{"message_bytes"}, MessageBytes}};
 }
 
 }  // namespace fresco

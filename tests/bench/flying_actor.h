@@ -43,11 +43,16 @@ class FlyingActor {
         SplitResult(experiment_->world(), result, 1, [&](transitions_t message) {
           Stamp(message, {1, experiment_->hash()}, WallMicroseconds());
           Encode(message, bytes_);
+          encoded_bytes_ += static_cast<double>(bytes_.size());
         });
       });
     }
+    transitions_ += transitions;
     return transitions;
   }
+
+  /// Mean bytes of messages for a transition, of all so far.
+  double bytes_per_transition() const { return encoded_bytes_ / transitions_; }
 
   const Vector& parameters() const { return *parameters_; }
 
@@ -56,6 +61,8 @@ class FlyingActor {
   SharedParameters parameters_;
   Flyer flyer_;
   int64_t next_index_ = 0;
+  double transitions_ = 0;
+  double encoded_bytes_ = 0;
   std::vector<std::byte> bytes_;
 };
 

@@ -1,8 +1,12 @@
 // How cost grows: the same work at several sizes, each beside the sizes of the default experiment.
 //
 // growth_batch_*, growth_width_*, growth_observation_*, growth_replay_*: transitions a second that updates
-// learn from. growth_environments_*, growth_sensors_*: transitions a second of an actor.
+// learn from. growth_environments_*, growth_sensors_*: transitions a second of an actor. replay_bytes:
+// resident memory that a transition takes in the replay memory.
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
 
 #include "msgs/ready_experiments.h"
 #include "tests/bench/alternate.h"
@@ -28,6 +32,31 @@ Work Updates(const UpdateSizes& sizes) {
     loop->Step();
     return static_cast<double>(batch);
   };
+}
+
+double ResidentBytes() {
+  std::ifstream file("/proc/self/statm");
+  double pages = 0;
+  double resident_pages = 0;
+  file >> pages >> resident_pages;
+  return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// Of a replay memory with a million transitions of the paper's size.
+Results ReplayBytes(double) {
+  constexpr int kInputs = 7;
+  constexpr int kActions = 20;
+  constexpr int kTransitions = 1'000'000;
+  const double before = ResidentBytes();
+  ReplayMemory memory(kInputs, kActions, kTransitions);
+  const std::vector<float> observation(kInputs, 0.5F);
+  const std::vector<uint8_t> mask(static_cast<size_t>(MaskSize(kActions)), 1);
+  for (int i = 0; i < kTransitions; ++i) {
+    memory.Insert({observation, observation, 1, -0.5F, false, mask});
+  }
+  const double bytes = (ResidentBytes() - before) / kTransitions;
+  constexpr double kFields = 2 * kInputs * 4 + 2 + 2 * 4 + 1 + 3;  // s, s', action, reward, bound, end, mask
+  return {{LessIsBetter("replay_bytes", bytes, "B/transition", "its fields alone", kFields)}, {}};
 }
 
 /// The sizes of an actor; 0: that of the default experiment.
@@ -80,7 +109,7 @@ Subject GrownFlights(const std::string& name, const ActorSizes& sizes) {
 }  // namespace
 
 std::vector<Subject> GrowthSubjects() {
-  std::vector<Subject> subjects;
+  std::vector<Subject> subjects = {{{"replay_bytes"}, ReplayBytes}};
   for (const int batch : {16, 64, 800, 3200}) {
     subjects.push_back(GrownUpdates(fmt::format("growth_batch_{}", batch), {.batch = batch}));
   }
