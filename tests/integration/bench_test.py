@@ -16,7 +16,7 @@ class Bench(FrescoTest):
         return self.run_fresco("bench", "--check", path, "--format", "json", *SHORT, expect=expect)
 
     def test_prints_each_row_beside_its_reference(self):
-        output, progress = self.run_fresco("bench", "--filter", "environment", "--format", "json", *SHORT)
+        output, progress = self.run_fresco("bench", "--filter", "^environment", "--format", "json", *SHORT)
         result = json.loads(output)
         self.assertEqual(set(result), {"machine", "commit", "rows", "absent"})
         self.assertEqual(set(result["machine"]), {"processor", "cores", "arithmetic", "compiler"})
