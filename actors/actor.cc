@@ -167,11 +167,10 @@ void Actor::HandleWeights(const weights_t& message) {
   if (!IsMine(IdentityOf(message), message.utime)) {
     return;
   }
-  NetworkStore& store = run_->store();
-  const NetworkStore::Arrival arrival = store.Add(kind, message, now_us_);
+  const NetworkStore::Arrival arrival = run_->AddWeights(kind, message, now_us_);
   if (arrival == NetworkStore::Arrival::kCompleted) {
     ++totals_.completed_versions;
-    totals_.longest_assembly_us = std::max(totals_.longest_assembly_us, store.longest_assembly_us());
+    totals_.longest_assembly_us = std::max(totals_.longest_assembly_us, run_->store().longest_assembly_us());
   } else if (arrival == NetworkStore::Arrival::kRejected || arrival == NetworkStore::Arrival::kRestarted) {
     ++totals_.rejected.inconsistent;
   }
@@ -204,7 +203,7 @@ void Actor::Send(const OrderResult& result, bool again) {
     ++totals_.episodes;
     totals_.transitions += result.episode.transitions();
   }
-  SplitResult(run_->world(), result, options_.actor_id, [this](const transitions_t& message) {
+  SplitResult(run_->world(), result, options_.actor_id, [this](transitions_t& message) {
     bus_.Publish(channels_.transitions, message, run_->identity());
   });
 }

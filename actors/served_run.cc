@@ -16,6 +16,10 @@ namespace {
 constexpr int64_t kLargestIndex = int64_t{1} << 32;
 constexpr size_t kLongestList = 32;
 
+bool IsBefore(const Order& order, int64_t index) {
+  return order.index < index;
+}
+
 std::string Names(const std::vector<chunk_range_t>& ranges) {
   std::string text;
   for (const chunk_range_t& range : ranges) {
@@ -41,6 +45,12 @@ bool ServedRun::Hear(int64_t utime, int64_t now_us) {
   newest_utime_ = std::max(newest_utime_, utime);
   last_heard_us_ = now_us;
   return true;
+}
+
+NetworkStore::Arrival ServedRun::AddWeights(NetworkKind kind, const weights_t& message, int64_t now_us) {
+  const NetworkStore::Arrival arrival = store_.Add(kind, message, now_us);
+  news_ |= arrival == NetworkStore::Arrival::kCompleted;
+  return arrival;
 }
 
 int ServedRun::HandleOrders(const orders_t& message, int64_t actor_id, int64_t now_us) {
@@ -74,7 +84,13 @@ void ServedRun::Accept(const Order& order, int64_t now_us) {
       send_(flown->second.result, true);
     }
   } else if (!flyer_.IsFlying(order.index)) {
-    waiting_.insert_or_assign(order.index, order);
+    const auto at = std::lower_bound(waiting_.begin(), waiting_.end(), order.index, IsBefore);
+    if (at != waiting_.end() && at->index == order.index) {
+      *at = order;
+    } else {
+      waiting_.insert(at, order);
+    }
+    news_ = true;
   }
 }
 
@@ -85,36 +101,60 @@ int64_t ServedRun::WindowEnd() const {
 
 /// Bounds memory, also if the window has moved back because the learner was resumed.
 void ServedRun::KeepWindow() {
-  const auto keep = [this](auto& by_index) {
-    by_index.erase(by_index.begin(), by_index.lower_bound(committed_));
-    by_index.erase(by_index.lower_bound(WindowEnd()), by_index.end());
-  };
-  keep(waiting_);
-  keep(flown_);
+  const size_t waiting = waiting_.size();
+  std::erase_if(waiting_, [this](const Order& order) {
+    return order.index < committed_ || order.index >= WindowEnd();
+  });
+  news_ |= waiting_.size() != waiting;
+  Forget(flown_.begin(), flown_.lower_bound(committed_));
+  Forget(flown_.lower_bound(WindowEnd()), flown_.end());
+}
+
+void ServedRun::Forget(std::map<int64_t, Flown>::iterator first, std::map<int64_t, Flown>::iterator last) {
+  while (first != last) {
+    spare_.push_back(flown_.extract(first++));
+  }
+}
+
+/// Keeps a copy of the result.
+void ServedRun::Keep(const Order& order, const OrderResult& result, int64_t now_us) {
+  auto kept = flown_.find(order.index);
+  if (kept == flown_.end() && !spare_.empty()) {
+    spare_.back().key() = order.index;
+    kept = flown_.insert(std::move(spare_.back())).position;
+    spare_.pop_back();
+  } else if (kept == flown_.end()) {
+    kept = flown_.try_emplace(order.index).first;
+  }
+  kept->second.order = order;
+  kept->second.result = result;
+  kept->second.sent_us = now_us;
 }
 
 void ServedRun::Step(int64_t now_us) {
-  StartFlights();
-  flyer_.Step([&](const Order& order, OrderResult& result) {
+  if (std::exchange(news_, false)) {
+    StartFlights();
+  }
+  flyer_.Step([&](const Order& order, const OrderResult& result) {
     send_(result, false);
-    flown_.insert_or_assign(order.index, Flown{order, std::move(result), now_us});
+    Keep(order, result, now_us);
+    news_ = true;
   });
 }
 
 void ServedRun::StartFlights() {
   std::set<NetworkVersion> wanted;
-  for (auto it = waiting_.begin(); it != waiting_.end();) {
-    const auto [current, target] = VersionsOf(it->second);
+  std::erase_if(waiting_, [&](const Order& order) {
+    const auto [current, target] = VersionsOf(order);
     auto current_parameters = store_.Find(current);
     auto target_parameters = store_.Find(target);
-    wanted.insert({current, target});
-    if (flyer_.HasRoom() && current_parameters != nullptr && target_parameters != nullptr) {
-      flyer_.Start(it->second, std::move(current_parameters), std::move(target_parameters));
-      it = waiting_.erase(it);
-    } else {
-      ++it;
+    if (!flyer_.HasRoom() || current_parameters == nullptr || target_parameters == nullptr) {
+      wanted.insert({current, target});
+      return false;
     }
-  }
+    flyer_.Start(order, std::move(current_parameters), std::move(target_parameters));
+    return true;
+  });
   store_.SetWanted(std::move(wanted));
 }
 
@@ -122,7 +162,7 @@ int64_t ServedRun::OldestOpenOrder() const {
   std::vector<int64_t> open = flyer_.OrderIndices();
   std::erase_if(open, [this](int64_t index) { return index < committed_; });
   if (!waiting_.empty()) {
-    open.push_back(waiting_.begin()->first);
+    open.push_back(waiting_.front().index);
   }
   return open.empty() ? -1 : *std::min_element(open.begin(), open.end());
 }
@@ -154,12 +194,12 @@ std::string ServedRun::StateText(int64_t now_us) const {
                   IdentifierText(identity_.run_id), static_cast<double>(now_us - last_heard_us_) * 1e-6,
                   flyer_.open_flights(), flown_.size());
   size_t lines = 0;
-  for (const auto& [index, order] : waiting_) {
+  for (const Order& order : waiting_) {
     if (++lines > kLongestList) {
       text += fmt::format("\n  and {} orders more", waiting_.size() - kLongestList);
       break;
     }
-    text += fmt::format("\n  order {} waits for {}", index, WaitsFor(order));
+    text += fmt::format("\n  order {} waits for {}", order.index, WaitsFor(order));
   }
   return text + "\n  networks held: " + Names(store_.HeldVersions());
 }
@@ -171,7 +211,7 @@ MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
   const VersionsInFlight versions = MostVersionsInFlight(experiment);
   const int64_t wanted = std::min(orders, versions.current) + std::min(orders, versions.target);
   constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
-  const int64_t of_order = static_cast<int64_t>(2 * sizeof(Order)) + kGrowth * LongestResultBytes(world);
+  const int64_t of_order = (kGrowth + 1) * static_cast<int64_t>(sizeof(Order)) + LongestResultBytes(world);
   return {"actor",
           1,
           {{"run.environments_per_actor", "its environments",

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "actors/network_store.h"
 #include "core/memory.h"
@@ -26,7 +27,7 @@ class ServedRun {
 
   RunIdentity identity() const { return identity_; }
   const World& world() const { return experiment_.world(); }
-  NetworkStore& store() { return store_; }
+  const NetworkStore& store() const { return store_; }
 
   /// Notes a message of the learner: `utime` is its time by the learner's clock, `now_us` the time by
   /// a clock that stops while the process is stopped. Returns false if the message is stale, so must be
@@ -41,8 +42,11 @@ class ServedRun {
   /// Returns how many fields and orders of the message contradict the run.
   int HandleOrders(const orders_t& message, int64_t actor_id, int64_t now_us);
 
+  /// Adds a chunk of a network: NetworkStore::Add.
+  NetworkStore::Arrival AddWeights(NetworkKind kind, const weights_t& message, int64_t now_us);
+
   /// Starts every order for which there is room and whose networks are complete, and flies one slot of each
-  /// flight.
+  /// flight. Allocates nothing after the first episodes, unless there are new orders or networks.
   void Step(int64_t now_us);
   bool Idle() const { return flyer_.Idle(); }
 
@@ -61,6 +65,8 @@ class ServedRun {
 
   int64_t WindowEnd() const;
   void KeepWindow();
+  void Forget(std::map<int64_t, Flown>::iterator first, std::map<int64_t, Flown>::iterator last);
+  void Keep(const Order& order, const OrderResult& result, int64_t now_us);
   void Accept(const Order& order, int64_t now_us);
   void StartFlights();
   int64_t OldestOpenOrder() const;
@@ -72,9 +78,11 @@ class ServedRun {
   SendResult send_;
   NetworkStore store_;
   Flyer flyer_;
-  int64_t committed_ = 0;             // orders below are done
-  std::map<int64_t, Order> waiting_;  // by index: for networks or room
-  std::map<int64_t, Flown> flown_;    // by index
+  int64_t committed_ = 0;           // orders below are done
+  std::vector<Order> waiting_;      // sorted by index: for networks or room
+  bool news_ = false;               // since waiting orders were last looked at: orders, networks or room
+  std::map<int64_t, Flown> flown_;  // by index
+  std::vector<std::map<int64_t, Flown>::node_type> spare_;  // room of what was flown_
   int64_t last_heard_us_ = 0;
   int64_t newest_utime_ = 0;
 };

@@ -4,6 +4,10 @@
 #include <bit>
 #include <cstring>
 
+#if defined(__x86_64__)
+#include <nmmintrin.h>
+#endif
+
 namespace fresco {
 namespace {
 
@@ -34,10 +38,8 @@ constexpr Tables MakeTables() {
 
 constexpr Tables kTables = MakeTables();
 
-}  // namespace
-
-uint32_t Crc32c(std::span<const std::byte> bytes, uint32_t previous) {
-  uint32_t crc = ~previous;
+/// Adds the bytes to a remainder. Any processor can do this.
+uint32_t AddByTables(std::span<const std::byte> bytes, uint32_t crc) {
   size_t i = 0;
   for (; i + kTables.size() <= bytes.size(); i += kTables.size()) {
     uint64_t word = 0;
@@ -51,7 +53,45 @@ uint32_t Crc32c(std::span<const std::byte> bytes, uint32_t previous) {
   for (; i < bytes.size(); ++i) {
     crc = (crc >> 8) ^ kTables[0][(crc ^ static_cast<uint32_t>(bytes[i])) & 0xFFu];
   }
-  return ~crc;
+  return crc;
+}
+
+#if defined(__x86_64__)
+/// The same by the instruction of x86-64-v2, which is several times as fast.
+__attribute__((target("sse4.2"))) uint32_t AddByInstruction(std::span<const std::byte> bytes, uint32_t crc) {
+  constexpr size_t kWord = sizeof(uint64_t);
+  uint64_t remainder = crc;
+  size_t i = 0;
+  for (; i + kWord <= bytes.size(); i += kWord) {
+    uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, kWord);
+    remainder = _mm_crc32_u64(remainder, word);
+  }
+  crc = static_cast<uint32_t>(remainder);
+  for (; i < bytes.size(); ++i) {
+    crc = _mm_crc32_u8(crc, std::to_integer<uint8_t>(bytes[i]));
+  }
+  return crc;
+}
+#endif
+
+using AddFunction = uint32_t (*)(std::span<const std::byte>, uint32_t);
+
+/// The fastest of these on this processor.
+AddFunction FastestAdd() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("sse4.2")) {
+    return AddByInstruction;
+  }
+#endif
+  return AddByTables;
+}
+
+}  // namespace
+
+uint32_t Crc32c(std::span<const std::byte> bytes, uint32_t previous) {
+  static const AddFunction add = FastestAdd();
+  return ~add(bytes, ~previous);
 }
 
 uint32_t Crc32c(std::span<const float> values) {

@@ -172,7 +172,7 @@ void LearnerNode::SendRun(int64_t now_us, bool finished) {
       messages = announcer_.Messages(report_.progress, finished);
     }
   }
-  for (const run_t& message : messages) {
+  for (run_t& message : messages) {
     bus_.Publish(channels_.run, message, identity_);
   }
 }
@@ -180,10 +180,10 @@ void LearnerNode::SendRun(int64_t now_us, bool finished) {
 void LearnerNode::SendWorldIfDue(int64_t now_us) {
   if (now_us >= next_world_us_) {
     next_world_us_ = now_us + kWorldPeriodUs;
-    for (const world_t& message : WorldMessages(experiment_.world())) {
+    for (world_t& message : WorldMessages(experiment_.world())) {
       bus_.Publish(channels_.world, message, identity_);
     }
-    for (const scenario_t& message : ScenarioMessages(experiment_)) {
+    for (scenario_t& message : ScenarioMessages(experiment_)) {
       bus_.Publish(channels_.scenario, message, identity_);
     }
   }

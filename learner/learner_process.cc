@@ -132,7 +132,7 @@ void LearnerProcess::Train() {
   while (!trainer_.finished() && !StopSignal::Requested() && !GivesUp()) {
     WriteCheckpointIfDue();
     if (const auto next = node_.WaitForNext(kWaitUs)) {
-      trainer_.Commit(next->order, next->episode);
+      trainer_.Commit(next->order, std::move(next->episode));
     }
     Report();
   }

@@ -78,10 +78,10 @@ bool Retraining::Step() {
   if (pending_.empty()) {
     return false;
   }
-  const Episode episode = EpisodeOf(pending_.front());
+  Episode episode = EpisodeOf(pending_.front());
   const Order order = pending_.front().order;
   pending_.pop_front();
-  trainer_.Commit(order, episode);
+  trainer_.Commit(order, std::move(episode));
   return true;
 }
 
@@ -97,9 +97,9 @@ Episode Retraining::EpisodeOf(const PendingOrder& pending) {
 /// Flies until the flight of this order, the first pending one, has ended.
 Episode Retraining::WaitForFlight(const PendingOrder& pending) {
   while (!pending.flown) {
-    flyer_.Step([this](const Order& order, OrderResult& result) {
+    flyer_.Step([this](const Order& order, const OrderResult& result) {
       const int64_t position = order.index - pending_.front().order.index;
-      pending_[static_cast<size_t>(position)].flown = std::move(result.episode);
+      pending_[static_cast<size_t>(position)].flown = result.episode;
     });
   }
   return *pending.flown;

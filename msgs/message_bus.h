@@ -28,10 +28,10 @@ class MessageBus {
   MessageBus(const MessageBus&) = delete;
   MessageBus& operator=(const MessageBus&) = delete;
 
-  /// Sends the message with this identity and the present time. Returns false if the transport reports that
-  /// it could not.
+  /// Writes this identity and the present time into the message, and sends it. Returns false if the transport
+  /// reports that it could not.
   template <class Message>
-  bool Publish(const std::string& channel, Message message, RunIdentity identity) {
+  bool Publish(const std::string& channel, Message&& message, RunIdentity identity) {
     thread_local std::vector<std::byte> bytes;  // so that sending allocates nothing after a while
     Stamp(message, identity, WallMicroseconds());
     Encode(message, bytes);

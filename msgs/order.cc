@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 
@@ -18,10 +19,41 @@ static_assert(EncodedBytes(kMaximumTransitionsPerMessage + 1, 1, 1) > kMaximumEn
 static_assert(EncodedBytes(1, transitions_t::MAXIMUM_FIELD_COUNT, 1) > kMaximumEncodedBytes);
 static_assert(8 * transitions_t::MAXIMUM_MASK_SIZE >= kMaximumActions);
 
-transitions_t MessageOf(const World& world, const OrderResult& result, MessageLayout part, int first,
-                        int first_field) {
-  const Episode& episode = result.episode;
+/// Copies `count` values from `first` on.
+template <class From, class To>
+void CopyRange(const std::vector<From>& from, int first, int count, std::vector<To>& to) {
+  const auto begin = from.begin() + first;
+  to.assign(begin, begin + count);
+}
+
+/// Rows that a message does not need now, with their room.
+template <class Value>
+using SpareRows = std::vector<std::vector<Value>>;
+
+template <class Value>
+void ResizeRows(int32_t count, std::vector<std::vector<Value>>& rows, SpareRows<Value>& spare) {
+  const auto size = static_cast<size_t>(count);
+  for (; rows.size() > size; rows.pop_back()) {
+    spare.push_back(std::move(rows.back()));
+  }
+  for (; rows.size() < size && !spare.empty(); spare.pop_back()) {
+    rows.push_back(std::move(spare.back()));
+  }
+  rows.resize(size);
+}
+
+/// A message that is written again and again. Allocates nothing once it has had as many transitions.
+struct ReusedMessage {
   transitions_t message{};
+  SpareRows<float> states = {};
+  SpareRows<uint8_t> masks = {};
+};
+
+/// Writes the part of the result from transition `first` and field `first_field` on into the message.
+void WriteMessage(const World& world, const OrderResult& result, MessageLayout part, int first,
+                  int first_field, ReusedMessage& reused) {
+  const Episode& episode = result.episode;
+  transitions_t& message = reused.message;
   message.transition_count = part.transitions;
   message.state_count = part.transitions + 1;
   message.field_count = part.fields;
@@ -32,20 +64,19 @@ transitions_t MessageOf(const World& world, const OrderResult& result, MessageLa
   message.first_field = first_field;
   message.ending =
       static_cast<int8_t>(first + part.transitions == episode.transitions() ? episode.ending : Ending::kNone);
-  for (int i = first; i <= first + part.transitions; ++i) {
-    const auto fields = episode.state(static_cast<size_t>(i))
-                            .subspan(static_cast<size_t>(first_field), static_cast<size_t>(part.fields));
-    message.state.emplace_back(fields.begin(), fields.end());
+  CopyRange(episode.actions, first, part.transitions, message.action);
+  CopyRange(episode.rewards, first, part.transitions, message.reward);
+  CopyRange(result.td_errors, first, part.transitions, message.td_error);
+  ResizeRows(message.state_count, message.state, reused.states);
+  for (int i = 0; i < message.state_count; ++i) {
+    CopyRange(episode.states, (first + i) * world.state_size() + first_field, part.fields,
+              message.state[static_cast<size_t>(i)]);
   }
-  for (int i = first; i < first + part.transitions; ++i) {
-    const auto at = static_cast<size_t>(i);
-    const auto mask = episode.next_masks.begin() + i * message.mask_size;
-    message.action.push_back(episode.actions[at]);
-    message.reward.push_back(episode.rewards[at]);
-    message.td_error.push_back(result.td_errors[at]);
-    message.next_mask.emplace_back(mask, mask + message.mask_size);
+  ResizeRows(message.transition_count, message.next_mask, reused.masks);
+  for (int i = 0; i < message.transition_count; ++i) {
+    CopyRange(episode.next_masks, (first + i) * message.mask_size, message.mask_size,
+              message.next_mask[static_cast<size_t>(i)]);
   }
-  return message;
 }
 
 /// Whether the message has whole states or one of the parts that LayoutOf cuts them into.
@@ -64,15 +95,22 @@ bool SizesMatch(const World& world, const transitions_t& message) {
          message.order_index >= 0 && message.ending >= 0 && message.ending <= 2;
 }
 
-bool ReadTransition(const World& world, const transitions_t& message, size_t i, OrderResult& result) {
-  result.episode.actions.push_back(message.action[i]);
-  result.episode.rewards.push_back(message.reward[i]);
-  result.td_errors.push_back(message.td_error[i]);
-  for (const auto byte : message.next_mask[i]) {
-    result.episode.next_masks.push_back(static_cast<uint8_t>(byte));
+/// Writes the rows one behind the other. All rows have `width` values.
+template <class From, class To>
+void JoinRows(const std::vector<std::vector<From>>& rows, int32_t width, std::vector<To>& joined) {
+  joined.resize(rows.size() * static_cast<size_t>(width));
+  auto to = joined.begin();
+  for (const std::vector<From>& row : rows) {
+    to = std::copy(row.begin(), row.end(), to);
   }
-  return message.action[i] >= 0 && message.action[i] < world.actions() && std::isfinite(message.reward[i]) &&
-         std::isfinite(message.td_error[i]);
+}
+
+bool AreFinite(const std::vector<float>& values) {
+  bool finite = true;
+  for (const float value : values) {
+    finite &= std::abs(value) <= std::numeric_limits<float>::max();
+  }
+  return finite;
 }
 
 }  // namespace
@@ -100,37 +138,34 @@ bool FromWire(const order_t& message, Order& order) {
 }
 
 MessageLayout LayoutOf(int state_size, int actions) {
-  MessageLayout layout{0, state_size};
-  while (EncodedBytes(layout.transitions + 1, state_size, actions) <= kMaximumEncodedBytes) {
-    ++layout.transitions;
+  // Bytes grow linearly, with the transitions and with the fields.
+  const size_t of_none = EncodedBytes(0, state_size, actions);
+  const size_t of_one = EncodedBytes(1, state_size, actions);
+  if (of_one <= kMaximumEncodedBytes) {
+    return {static_cast<int>((kMaximumEncodedBytes - of_none) / (of_one - of_none)), state_size};
   }
-  if (layout.transitions == 0) {
-    layout.transitions = 1;
-    while (EncodedBytes(1, layout.fields, actions) > kMaximumEncodedBytes) {
-      --layout.fields;
-    }
-  }
-  return layout;
+  const size_t without_fields = EncodedBytes(1, 0, actions);
+  const size_t of_field = EncodedBytes(1, 1, actions) - without_fields;
+  return {1, static_cast<int>((kMaximumEncodedBytes - without_fields) / of_field)};
 }
 
 void SplitResult(const World& world, const OrderResult& result, int64_t actor_id,
-                 const std::function<void(const transitions_t&)>& send) {
+                 const std::function<void(transitions_t&)>& send) {
+  thread_local ReusedMessage reused;
   const MessageLayout layout = LayoutOf(world);
   const int transitions = result.episode.transitions();
   for (int first = 0; first < transitions; first += layout.transitions) {
     for (int first_field = 0; first_field < world.state_size(); first_field += layout.fields) {
       const MessageLayout part = {std::min(layout.transitions, transitions - first),
                                   std::min(layout.fields, world.state_size() - first_field)};
-      transitions_t message = MessageOf(world, result, part, first, first_field);
-      message.actor_id = actor_id;
-      send(message);
+      WriteMessage(world, result, part, first, first_field, reused);
+      reused.message.actor_id = actor_id;
+      send(reused.message);
     }
   }
 }
 
 bool FromWire(const World& world, const transitions_t& message, OrderResult& result) {
-  result.episode.Clear();
-  result.td_errors.clear();
   if (!SizesMatch(world, message)) {
     return false;
   }
@@ -138,16 +173,16 @@ bool FromWire(const World& world, const transitions_t& message, OrderResult& res
   result.seed = static_cast<uint64_t>(message.seed);
   result.first_transition = message.first_transition;
   result.first_field = message.first_field;
-  result.episode.ending = static_cast<Ending>(message.ending);
-  for (const std::vector<float>& state : message.state) {
-    result.episode.states.insert(result.episode.states.end(), state.begin(), state.end());
-  }
-  bool valid = std::all_of(result.episode.states.begin(), result.episode.states.end(),
-                           [](float value) { return std::isfinite(value); });
-  for (size_t i = 0; valid && i < static_cast<size_t>(message.transition_count); ++i) {
-    valid = ReadTransition(world, message, i, result);
-  }
-  return valid;
+  result.td_errors = message.td_error;
+  Episode& episode = result.episode;
+  episode.ending = static_cast<Ending>(message.ending);
+  episode.actions = message.action;
+  episode.rewards = message.reward;
+  JoinRows(message.state, message.field_count, episode.states);
+  JoinRows(message.next_mask, message.mask_size, episode.next_masks);
+  const auto is_action = [&](int16_t action) { return action >= 0 && action < world.actions(); };
+  return std::all_of(episode.actions.begin(), episode.actions.end(), is_action) &&
+         AreFinite(episode.states) && AreFinite(episode.rewards) && AreFinite(result.td_errors);
 }
 
 int64_t LongestResultBytes(const World& world) {

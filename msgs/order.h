@@ -66,9 +66,9 @@ inline MessageLayout LayoutOf(const World& world) {
 }
 
 /// Splits a complete result into messages, and calls `send` with each, first transitions first. They have no
-/// run and no time yet (MessageBus::Publish).
+/// run and no time yet (MessageBus::Publish). `send` may change the message, which is valid during the call.
 void SplitResult(const World& world, const OrderResult& result, int64_t actor_id,
-                 const std::function<void(const transitions_t&)>& send);
+                 const std::function<void(transitions_t&)>& send);
 
 /// Reads the part of a result that a message holds. Returns false if sizes or actions do not fit the world,
 /// or a value is not finite; `result` is then unspecified.

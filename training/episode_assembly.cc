@@ -41,12 +41,14 @@ EpisodeAssembly::Arrival EpisodeAssembly::Add(const OrderResult& part) {
     return Arrival::kContradiction;
   }
   MakeRoom(end);
-  Arrival arrival = Arrival::kNothingNew;
-  for (size_t i = 0; i < part.episode.actions.size(); ++i) {
-    if (!MergeTransition(part, i)) {
+  for (size_t i = 0; i <= part.episode.actions.size(); ++i) {
+    if (!MergeState(part, i) || (i < part.episode.actions.size() && !MergeTransition(part, i))) {
       return Arrival::kContradiction;
     }
-    uint8_t& arrived = arrived_[(first + i) * field_parts_ + FieldPart(part)];
+  }
+  Arrival arrival = Arrival::kNothingNew;
+  for (size_t transition = first; transition < end; ++transition) {
+    uint8_t& arrived = arrived_[transition * field_parts_ + FieldPart(part)];
     if (arrived == 0) {
       arrived = 1;
       ++parts_arrived_;
@@ -58,6 +60,13 @@ EpisodeAssembly::Arrival EpisodeAssembly::Add(const OrderResult& part) {
     episode_.ending = part.episode.ending;
   }
   return arrival;
+}
+
+void EpisodeAssembly::Clear() {
+  episode_.Clear();
+  arrived_.clear();
+  parts_arrived_ = 0;
+  length_ = 0;
 }
 
 bool EpisodeAssembly::EndFits(const OrderResult& part, size_t end) const {
@@ -78,28 +87,25 @@ void EpisodeAssembly::MakeRoom(size_t transitions) {
   }
 }
 
-/// Merges transition i of the part and the two states around it.
+/// Merges transition i of the part, without its states.
 bool EpisodeAssembly::MergeTransition(const OrderResult& part, size_t i) {
   const size_t transition = static_cast<size_t>(part.first_transition) + i;
-  const size_t field_part = FieldPart(part);
   const bool is_here = AnyIsHere(transition);
-  const bool fields_are_here = IsHere(transition, field_part);
-  const bool before_is_here = fields_are_here || (transition > 0 && IsHere(transition - 1, field_part));
-  const bool after_is_here = fields_are_here || IsHere(transition + 1, field_part);
   const auto merge = [&](const auto& values, auto& here, size_t size) {
     return Merge(std::span(values).subspan(i * size, size), is_here,
                  std::span(here).subspan(transition * size, size));
   };
   return merge(part.episode.actions, episode_.actions, 1) &&
          merge(part.episode.rewards, episode_.rewards, 1) &&
-         merge(part.episode.next_masks, episode_.next_masks, mask_size_) &&
-         MergeState(part, i, before_is_here) && MergeState(part, i + 1, after_is_here);
+         merge(part.episode.next_masks, episode_.next_masks, mask_size_);
 }
 
-/// Merges the fields of state i of the part.
-bool EpisodeAssembly::MergeState(const OrderResult& part, size_t i, bool is_here) {
+/// Merges the fields of state i of the part. They are here if the transition before or after it is.
+bool EpisodeAssembly::MergeState(const OrderResult& part, size_t i) {
   const std::span<const float> fields = part.episode.state(i);
   const size_t state = static_cast<size_t>(part.first_transition) + i;
+  const size_t field_part = FieldPart(part);
+  const bool is_here = IsHere(state, field_part) || (state > 0 && IsHere(state - 1, field_part));
   return Merge(fields, is_here,
                std::span(episode_.states)
                    .subspan(state * state_size_ + static_cast<size_t>(part.first_field), fields.size()));

@@ -27,6 +27,8 @@ class EpisodeAssembly {
   /// Adds a part that FromWire accepted. Every part with the last transition has to say that the episode ends
   /// there, and how.
   Arrival Add(const OrderResult& part);
+  /// Forgets everything, also after a contradiction. Leaves the room for another episode.
+  void Clear();
 
   /// Whether everything has arrived.
   bool complete() const { return length_ > 0 && parts_arrived_ == length_ * field_parts_; }
@@ -37,7 +39,7 @@ class EpisodeAssembly {
   bool EndFits(const OrderResult& part, size_t end) const;
   void MakeRoom(size_t transitions);
   bool MergeTransition(const OrderResult& part, size_t i);
-  bool MergeState(const OrderResult& part, size_t i, bool is_here);
+  bool MergeState(const OrderResult& part, size_t i);
   bool IsHere(size_t transition, size_t field_part) const {
     return transition < episode_.actions.size() && arrived_[transition * field_parts_ + field_part] != 0;
   }

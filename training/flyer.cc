@@ -40,55 +40,76 @@ std::vector<int64_t> Flyer::OrderIndices() const {
   return indices;
 }
 
-void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
-  FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
-  auto flight = std::make_unique<Flight>(Flight{order, std::move(current), std::move(target), nullptr});
-  if (idle_recorders_.empty()) {
-    flight->recorder = std::make_unique<EpisodeRecorder>(experiment_.world(), order.seed);
-  } else {
-    flight->recorder = std::move(idle_recorders_.back());
-    idle_recorders_.pop_back();
-    flight->recorder->Begin(order.seed);
-  }
-  flights_.push_back(std::move(flight));
+std::pair<int32_t, int32_t> Flyer::Versions(const Flight& flight) {
+  return {flight.order.current_version, flight.order.target_version};
 }
 
-void Flyer::Step(const std::function<void(const Order&, OrderResult&)>& finished) {
-  // Flights of the same two versions are neighbours; the order within a group has no influence.
-  std::stable_sort(flights_.begin(), flights_.end(), [](const auto& a, const auto& b) {
-    return std::pair(a->order.current_version, a->order.target_version) <
-           std::pair(b->order.current_version, b->order.target_version);
-  });
-  for (size_t begin = 0; begin < flights_.size();) {
-    group_.clear();
-    const Flight& first = *flights_[begin];
-    for (; begin < flights_.size() && flights_[begin]->current == first.current &&
-           flights_[begin]->target == first.target;
-         ++begin) {
-      group_.push_back(flights_[begin].get());
-    }
-    StepGroup(group_);
+std::unique_ptr<Flyer::Flight> Flyer::FreeFlight() {
+  if (free_flights_.empty()) {
+    return std::make_unique<Flight>(experiment_.world());
   }
-  std::erase_if(flights_, [&](const auto& flight) {
+  std::unique_ptr<Flight> flight = std::move(free_flights_.back());
+  free_flights_.pop_back();
+  return flight;
+}
+
+void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
+  FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
+  std::unique_ptr<Flight> flight = FreeFlight();
+  flight->order = order;
+  flight->current = std::move(current);
+  flight->target = std::move(target);
+  flight->recorder.Begin(order.seed);
+  flight->result.td_errors.clear();
+  flight->place.reset();
+  flight->done = false;
+  const auto behind =
+      std::upper_bound(flights_.begin(), flights_.end(), Versions(*flight),
+                       [](const auto& versions, const auto& other) { return versions < Versions(*other); });
+  flights_.insert(behind, std::move(flight));
+}
+
+void Flyer::Step(const std::function<void(const Order&, const OrderResult&)>& finished) {
+  for (size_t begin = 0; begin < flights_.size();) {
+    const Flight& first = *flights_[begin];
+    size_t end = begin + 1;
+    while (end < flights_.size() && flights_[end]->current == first.current &&
+           flights_[end]->target == first.target) {
+      ++end;
+    }
+    StepGroup(std::span(flights_).subspan(begin, end - begin));
+    begin = end;
+  }
+  std::erase_if(flights_, [&](auto& flight) {
     if (!flight->done) {
       return false;
     }
-    OrderResult result{flight->order.index,         flight->order.seed,          0, 0,
-                       flight->recorder->Release(), std::move(flight->td_errors)};
-    idle_recorders_.push_back(std::move(flight->recorder));
-    finished(flight->order, result);
+    Finish(*flight, finished);
+    free_flights_.push_back(std::move(flight));
     return true;
   });
 }
 
-void Flyer::StepGroup(std::vector<Flight*>& group) {
-  const int batch = static_cast<int>(group.size());
+void Flyer::Finish(Flight& flight, const std::function<void(const Order&, const OrderResult&)>& finished) {
+  flight.current.reset();
+  flight.target.reset();
+  flight.result.order_index = flight.order.index;
+  flight.result.seed = flight.order.seed;
+  flight.result.episode = flight.recorder.Release();
+  finished(flight.order, flight.result);
+  flight.recorder.Reuse(std::move(flight.result.episode));
+}
+
+void Flyer::StepGroup(std::span<const std::unique_ptr<Flight>> group) {
+  const auto batch = static_cast<int>(group.size());
+  Matrix& observations = current_workspace_.input();
+  for (int column = 0; column < batch; ++column) {
+    experiment_.world().Observe(
+        group[static_cast<size_t>(column)]->recorder.state(),
+        {observations.col(column).data(), static_cast<size_t>(experiment_.world().observation_size())});
+  }
+  target_workspace_.input().leftCols(batch) = observations.leftCols(batch);
   const auto forward = [&](const SharedParameters& parameters, MlpWorkspace& workspace) {
-    for (int column = 0; column < batch; ++column) {
-      experiment_.world().Observe(group[static_cast<size_t>(column)]->recorder->state(),
-                                  {workspace.input().col(column).data(),
-                                   static_cast<size_t>(experiment_.world().observation_size())});
-    }
     mlp_.Forward(Values(*parameters), {0, batch}, workspace);
   };
   forward(group.front()->current, current_workspace_);
@@ -96,7 +117,7 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
   for (int column = 0; column < batch; ++column) {
     Flight& flight = *group[static_cast<size_t>(column)];
     FinishLastTransition(flight, column);
-    if (flight.recorder->ended()) {  // it was cut off, so the value of its last state counted
+    if (flight.recorder.ended()) {  // it was cut off, so the value of its last state counted
       flight.done = true;
       continue;
     }
@@ -106,19 +127,19 @@ void Flyer::StepGroup(std::vector<Flight*>& group) {
 }
 
 void Flyer::FinishLastTransition(Flight& flight, int column) {
-  const std::vector<float>& rewards = flight.recorder->episode().rewards;
+  const std::vector<float>& rewards = flight.recorder.episode().rewards;
   if (rewards.empty()) {
     return;
   }
   const Matrix& target_values = target_workspace_.output();
   const Matrix& choosing = double_dqn_ ? current_workspace_.output() : target_values;
-  const float next_value = target_values(GreedyAction(choosing, column, flight.recorder->mask()), column);
-  flight.td_errors.back() = rewards.back() + discount_ * next_value - flight.chosen_value;
+  const float next_value = target_values(GreedyAction(choosing, column, flight.recorder.mask()), column);
+  flight.result.td_errors.back() = rewards.back() + discount_ * next_value - flight.chosen_value;
 }
 
 int Flyer::ChooseAction(Flight& flight, int column) const {
   const std::optional<int> exploring = Explore(flight, column);
-  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.recorder->mask());
+  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.recorder.mask());
 }
 
 /// Returns a random action, or one of an excursion: a straight way to a random place, with the best of the
@@ -126,9 +147,9 @@ int Flyer::ChooseAction(Flight& flight, int column) const {
 /// nothing if the flight shall act greedily.
 std::optional<int> Flyer::Explore(Flight& flight, int column) const {
   const World& world = experiment_.world();
-  const std::span<const float> state = flight.recorder->state();
-  const std::vector<uint8_t>& mask = flight.recorder->mask();
-  const auto slot = static_cast<uint32_t>(flight.recorder->episode().transitions() + 1);
+  const std::span<const float> state = flight.recorder.state();
+  const std::vector<uint8_t>& mask = flight.recorder.mask();
+  const auto slot = static_cast<uint32_t>(flight.recorder.episode().transitions() + 1);
   RandomStream stream(flight.order.seed, RandomPurpose::kActing, slot, 0);
   if (flight.place && world.IsAt(state, *flight.place)) {
     flight.place.reset();
@@ -152,11 +173,11 @@ std::optional<int> Flyer::Explore(Flight& flight, int column) const {
 }
 
 void Flyer::Act(Flight& flight, int action, float value) {
-  flight.recorder->Step(action);
+  flight.recorder.Step(action);
   flight.chosen_value = value;
   // Final if this state is terminal; otherwise FinishLastTransition replaces it.
-  flight.td_errors.push_back(flight.recorder->episode().rewards.back() - value);
-  flight.done = flight.recorder->episode().ending == Ending::kTerminal;
+  flight.result.td_errors.push_back(flight.recorder.episode().rewards.back() - value);
+  flight.done = flight.recorder.episode().ending == Ending::kTerminal;
 }
 
 Episode FlyGreedily(const Experiment& experiment, uint64_t seed, SharedParameters parameters) {
@@ -167,7 +188,7 @@ Episode FlyGreedily(const Experiment& experiment, uint64_t seed, SharedParameter
   flyer.Start(order, parameters, parameters);
   Episode flown;
   while (!flyer.Idle()) {
-    flyer.Step([&](const Order&, OrderResult& result) { flown = std::move(result.episode); });
+    flyer.Step([&](const Order&, const OrderResult& result) { flown = result.episode; });
   }
   return flown;
 }

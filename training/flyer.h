@@ -7,6 +7,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/random.h"
@@ -40,22 +42,28 @@ class Flyer {
   void Start(const Order& order, SharedParameters current, SharedParameters target);
 
   /// Takes one step of every open order. Calls `finished` with the order and the result of each episode that
-  /// ends; it may move from the result.
-  void Step(const std::function<void(const Order&, OrderResult&)>& finished);
+  /// ends; the result is valid during the call. Allocates nothing once it has had as many flights at a time
+  /// and episodes as long.
+  void Step(const std::function<void(const Order&, const OrderResult&)>& finished);
 
  private:
   struct Flight {
+    explicit Flight(const World& world) : recorder(world) {}
+
     Order order;
     SharedParameters current;
     SharedParameters target;
-    std::unique_ptr<EpisodeRecorder> recorder;
-    std::vector<float> td_errors = {};  // by transition
-    float chosen_value = 0;             // Q(s, a) of the last transition
-    std::optional<int> place = {};      // that an excursion leads to
-    bool done = false;                  // the episode has ended and its last error is known
+    EpisodeRecorder recorder;
+    OrderResult result;        // td_errors grows with every transition; the rest is there at the end
+    float chosen_value = 0;    // Q(s, a) of the last transition
+    std::optional<int> place;  // that an excursion leads to
+    bool done = false;         // the episode has ended and its last error is known
   };
 
-  void StepGroup(std::vector<Flight*>& group);
+  static std::pair<int32_t, int32_t> Versions(const Flight& flight);
+  std::unique_ptr<Flight> FreeFlight();
+  void StepGroup(std::span<const std::unique_ptr<Flight>> group);
+  void Finish(Flight& flight, const std::function<void(const Order&, const OrderResult&)>& finished);
   void FinishLastTransition(Flight& flight, int column);
   int ChooseAction(Flight& flight, int column) const;
   std::optional<int> Explore(Flight& flight, int column) const;
@@ -69,10 +77,8 @@ class Flyer {
   int capacity_;
   MlpWorkspace current_workspace_;
   MlpWorkspace target_workspace_;
-  std::vector<std::unique_ptr<EpisodeRecorder>>
-      idle_recorders_;  // with the environments of flights that ended
-  std::vector<std::unique_ptr<Flight>> flights_;
-  std::vector<Flight*> group_;
+  std::vector<std::unique_ptr<Flight>> flights_;  // those of the same two versions are neighbours
+  std::vector<std::unique_ptr<Flight>> free_flights_;
 };
 
 /// One greedy episode with a network: what `fresco evaluate` flies.

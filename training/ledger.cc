@@ -7,7 +7,9 @@
 namespace fresco {
 
 int64_t Ledger::BytesFor(const World& world, int64_t orders) {
-  return orders * (static_cast<int64_t>(sizeof(Entry)) + EpisodeAssembly::BytesFor(world));
+  const int64_t of_check = 2 * LongestEpisodeBytes(world);  // a vector that grows may have twice the room
+  return of_check + orders * (static_cast<int64_t>(sizeof(Entry)) + LongestEpisodeBytes(world) +
+                              EpisodeAssembly::BytesFor(world));
 }
 
 void Ledger::Write(const Order& order) {
@@ -29,8 +31,8 @@ Ledger::Arrival Ledger::Add(const OrderResult& part) {
   if (entry.episode) {
     return Arrival::kDuplicate;
   }
-  if (!entry.parts) {
-    entry.parts.emplace(*world_);
+  if (entry.parts == nullptr) {
+    entry.parts = FreeAssembly();
   }
   const auto arrival =
       part.seed == entry.order.seed ? entry.parts->Add(part) : EpisodeAssembly::Arrival::kContradiction;
@@ -44,17 +46,29 @@ Ledger::Arrival Ledger::Add(const OrderResult& part) {
     entry.episode = entry.parts->episode();
     entry.episode->seed = entry.order.seed;
   }
-  entry.parts.reset();
+  entry.parts->Clear();
+  free_assemblies_.push_back(std::move(entry.parts));
   return entry.episode ? Arrival::kCompleted : Arrival::kInconsistent;
 }
 
-/// Whether the complete episode follows from its actions. Where that can't be known, believes the actor.
-bool Ledger::Follows(const Order& order, const Episode& episode) const {
+std::unique_ptr<EpisodeAssembly> Ledger::FreeAssembly() {
+  if (free_assemblies_.empty()) {
+    return std::make_unique<EpisodeAssembly>(*world_);
+  }
+  std::unique_ptr<EpisodeAssembly> assembly = std::move(free_assemblies_.back());
+  free_assemblies_.pop_back();
+  return assembly;
+}
+
+/// Whether the complete episode follows from its actions. If that can't be known, believes the actor.
+bool Ledger::Follows(const Order& order, const Episode& episode) {
   if (!world_->description().repeatable) {
     return true;
   }
-  Episode flown;
-  return FlyActions(*world_, order.seed, episode.actions, flown) && SameBits(flown, episode);
+  if (!check_) {
+    check_.emplace(*world_);
+  }
+  return FlyActions(order.seed, episode.actions, *check_) && SameBits(check_->episode(), episode);
 }
 
 std::optional<CommittedEpisode> Ledger::TakeNext() {

@@ -5,16 +5,18 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "msgs/order.h"
 #include "training/episode_assembly.h"
+#include "worlds/episode.h"
 #include "worlds/world.h"
 
 namespace fresco {
 
-/// An order and the episode that was flown for it.
+/// An order and the episode that was flown for it, whose vectors have no spare room.
 struct CommittedEpisode {
   Order order;
   Episode episode;
@@ -60,14 +62,17 @@ class Ledger {
   /// An order in flight, and what of its result has arrived.
   struct Entry {
     Order order;
-    std::optional<EpisodeAssembly> parts = {};  // from the first one to the last
-    std::optional<Episode> episode = {};        // once it is complete
+    std::unique_ptr<EpisodeAssembly> parts = {};  // from the first one to the last
+    std::optional<Episode> episode = {};          // once it is complete
   };
 
   const Entry& entry(int64_t index) const { return entries_[static_cast<size_t>(index - committed_)]; }
-  bool Follows(const Order& order, const Episode& episode) const;
+  std::unique_ptr<EpisodeAssembly> FreeAssembly();
+  bool Follows(const Order& order, const Episode& episode);
 
   const World* world_;
+  std::optional<EpisodeRecorder> check_;  // flies episodes again; made for the first one
+  std::vector<std::unique_ptr<EpisodeAssembly>> free_assemblies_;
   bool begun_ = false;
   int64_t committed_ = 0;
   std::deque<Entry> entries_;

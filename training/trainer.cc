@@ -54,7 +54,7 @@ void Trainer::Begin() {
   }
 }
 
-void Trainer::Commit(const Order& order, const Episode& episode) {
+void Trainer::Commit(const Order& order, Episode episode) {
   FRESCO_CHECK(!orders_.empty() && order == orders_.front().order);
   const int64_t updates_at_writing = orders_.front().updates_at_writing;
   orders_.pop_front();
@@ -63,7 +63,7 @@ void Trainer::Commit(const Order& order, const Episode& episode) {
     CommitEvaluation(order, episode);
   } else {
     Average(static_cast<double>(progress_.updates - updates_at_writing), progress_.staleness_updates);
-    CommitTraining(episode);
+    CommitTraining(std::move(episode));
   }
   ForgetVersions();
 }
@@ -85,9 +85,10 @@ void Trainer::ComputeLeastValues(const Episode& episode) {
 
 /// Every committed training episode is followed by one new training order. Evaluations are written in
 /// addition, so they have no influence on the training orders.
-void Trainer::CommitTraining(const Episode& episode) {
+void Trainer::CommitTraining(Episode episode) {
   const int64_t evaluations_due = EvaluationsDue();
   ComputeLeastValues(episode);
+  BeginInserting(episode, 0);
   for (int transition = 0; transition < episode.transitions(); ++transition) {
     Insert(episode, transition);
     ++progress_.transitions;
@@ -97,7 +98,8 @@ void Trainer::CommitTraining(const Episode& episode) {
       UpdateOnce();
     }
   }
-  history_.Add(std::make_shared<const Episode>(episode));  // a copy: without the room of vectors that grew
+  episode.ShrinkToFit();
+  history_.Add(std::make_shared<const Episode>(std::move(episode)));
   ++progress_.episodes;
   if (AllEpisodesCommitted()) {
     WriteFinalEvaluation();
@@ -114,14 +116,19 @@ int64_t Trainer::EvaluationsDue() const {
   return progress_.current_version / experiment_.schedule().versions_per_evaluation();
 }
 
+/// Insert follows, with this transition of the episode and then with those behind it, one after the other.
+void Trainer::BeginInserting(const Episode& episode, int transition) {
+  experiment_.world().Observe(episode.state(static_cast<size_t>(transition)), observation_);
+}
+
 void Trainer::Insert(const Episode& episode, int transition) {
   const auto i = static_cast<size_t>(transition);
-  experiment_.world().Observe(episode.state(i), observation_);
   experiment_.world().Observe(episode.state(i + 1), next_observation_);
   const auto mask_size = static_cast<size_t>(MaskSize(experiment_.world().actions()));
   const bool terminal = transition + 1 == episode.transitions() && episode.ending == Ending::kTerminal;
   replay_.Insert({observation_, next_observation_, episode.actions[i], episode.rewards[i], terminal,
                   std::span(episode.next_masks).subspan(i * mask_size, mask_size), least_values_[i]});
+  std::swap(observation_, next_observation_);
 }
 
 void Trainer::UpdateOnce() {

@@ -54,7 +54,7 @@ class Trainer {
   /// Commits the episode of `order`: inserts its transitions and makes the updates that are due. CHECKs that
   /// `order` is the oldest one that is not committed. The caller has checked that the episode is complete and
   /// follows from its actions.
-  void Commit(const Order& order, const Episode& episode);
+  void Commit(const Order& order, Episode episode);
 
   /// Whether every training episode is committed and the final version is evaluated.
   bool finished() const { return AllEpisodesCommitted() && orders_.empty(); }
@@ -68,11 +68,12 @@ class Trainer {
   const std::optional<Evaluation>& delivered() const { return delivered_; }
 
  private:
-  void CommitTraining(const Episode& episode);
+  void CommitTraining(Episode episode);
   void CommitEvaluation(const Order& order, const Episode& episode);
   void CompleteEvaluation(const Order& order);
   bool IsBetter(const Evaluation& a, const Evaluation& b) const;
   void ComputeLeastValues(const Episode& episode);
+  void BeginInserting(const Episode& episode, int transition);
   void Insert(const Episode& episode, int transition);
   void UpdateOnce();
   void CopyToTarget();
@@ -100,7 +101,7 @@ class Trainer {
   EpisodeHistory history_;  // the episodes whose transitions are in the replay memory
   MiniBatch batch_;
   Dqn dqn_;
-  std::vector<float> observation_;
+  std::vector<float> observation_;  // of the next transition to insert
   std::vector<float> next_observation_;
   std::vector<float> least_values_;  // lower bounds of Q*, by transition of the episode
   TrainerProgress progress_;

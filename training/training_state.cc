@@ -184,13 +184,12 @@ void Trainer::RefillReplay(const TrainingState& state) {
   replay_.BeginAt(state.progress.transitions - kept);
   int64_t to_skip = count - kept;  // of the oldest episode, and not in the replay memory any more
   for (const auto& episode : state.replay) {
+    const auto first = static_cast<int>(std::min<int64_t>(to_skip, episode->transitions()));
+    to_skip -= first;
     ComputeLeastValues(*episode);
-    for (int transition = 0; transition < episode->transitions(); ++transition) {
-      if (to_skip > 0) {
-        --to_skip;
-      } else {
-        Insert(*episode, transition);
-      }
+    BeginInserting(*episode, first);
+    for (int transition = first; transition < episode->transitions(); ++transition) {
+      Insert(*episode, transition);
     }
     history_.Add(episode);
   }

@@ -15,6 +15,13 @@ void Episode::Clear() {
   next_masks.clear();
 }
 
+void Episode::ShrinkToFit() {
+  states.shrink_to_fit();
+  actions.shrink_to_fit();
+  rewards.shrink_to_fit();
+  next_masks.shrink_to_fit();
+}
+
 void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed) {
   constexpr size_t kBits = 8;
   for (size_t first = 0; first < mask.size(); first += kBits) {
@@ -68,10 +75,8 @@ bool SameBits(const Episode& a, const Episode& b) {
          same(a.rewards, b.rewards) && same(a.next_masks, b.next_masks);
 }
 
-EpisodeRecorder::EpisodeRecorder(const World& world, uint64_t seed)
-    : world_(&world), environment_(world.NewEnvironment()), mask_(static_cast<size_t>(world.actions())) {
-  Begin(seed);
-}
+EpisodeRecorder::EpisodeRecorder(const World& world)
+    : world_(&world), environment_(world.NewEnvironment()), mask_(static_cast<size_t>(world.actions())) {}
 
 void EpisodeRecorder::Begin(uint64_t seed) {
   episode_.Clear();
@@ -97,19 +102,28 @@ void EpisodeRecorder::Step(int action) {
   episode_.ending = result.ending;
 }
 
-bool FlyActions(const World& world, uint64_t seed, std::span<const int16_t> actions, Episode& episode) {
-  EpisodeRecorder recorder(world, seed);
+bool FlyActions(uint64_t seed, std::span<const int16_t> actions, EpisodeRecorder& recorder) {
+  recorder.Begin(seed);
+  const std::vector<uint8_t>& mask = recorder.mask();
   for (const int16_t action : actions) {
-    if (action < 0 || action >= world.actions() || recorder.mask()[static_cast<size_t>(action)] == 0) {
+    if (action < 0 || static_cast<size_t>(action) >= mask.size() || mask[static_cast<size_t>(action)] == 0) {
       return false;
     }
     recorder.Step(action);
     if (recorder.ended()) {
-      episode = recorder.Release();
       return true;
     }
   }
   return false;
+}
+
+bool FlyActions(const World& world, uint64_t seed, std::span<const int16_t> actions, Episode& episode) {
+  EpisodeRecorder recorder(world);
+  if (!FlyActions(seed, actions, recorder)) {
+    return false;
+  }
+  episode = recorder.Release();
+  return true;
 }
 
 }  // namespace fresco

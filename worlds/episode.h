@@ -29,7 +29,10 @@ struct Episode {
     const size_t size = states.size() / (actions.size() + 1);
     return std::span(states).subspan(i * size, size);
   }
+  /// Leaves the room of the vectors for another episode.
   void Clear();
+  /// Gives back the room that vectors have beyond their content.
+  void ShrinkToFit();
 };
 
 /// Bytes of a mask over so many actions: bit a % 8 of byte a / 8 is 1 if action a is allowed.
@@ -60,10 +63,13 @@ bool SameBits(const Episode& a, const Episode& b);
 /// An environment that records what is done in it.
 class EpisodeRecorder {
  public:
-  /// Makes an environment and begins the episode that the seed determines. `world` must outlive the object.
-  EpisodeRecorder(const World& world, uint64_t seed);
+  /// Makes an environment; only Begin may be called next. `world` must outlive the object.
+  explicit EpisodeRecorder(const World& world);
+  /// The same, and begins the episode that the seed determines.
+  EpisodeRecorder(const World& world, uint64_t seed) : EpisodeRecorder(world) { Begin(seed); }
 
-  /// Begins another episode in the same environment.
+  /// Begins the episode that the seed determines. Forgets the one before, and allocates nothing while
+  /// episodes are not longer than the longest before.
   void Begin(uint64_t seed);
 
   const Environment& environment() const { return *environment_; }
@@ -75,8 +81,10 @@ class EpisodeRecorder {
   const std::vector<uint8_t>& mask() const { return mask_; }
   const Episode& episode() const { return episode_; }
   bool ended() const { return episode_.ending != Ending::kNone; }
-  /// Moves the episode out; afterwards only Begin and the destructor may be called.
+  /// Moves the episode out; afterwards only Reuse, Begin and the destructor may be called.
   Episode Release() { return std::move(episode_); }
+  /// Takes the room of an episode for the next one.
+  void Reuse(Episode&& episode) { episode_ = std::move(episode); }
 
   /// Takes an action. CHECKs as Environment::Step does; the action may be one that the mask forbids.
   void Step(int action);
@@ -91,7 +99,10 @@ class EpisodeRecorder {
 };
 
 /// Takes `actions` in the episode of the seed until it ends, and ignores the rest of them. Returns false if
-/// an action is not allowed, or if the episode has not ended after the last; `episode` is then unspecified.
+/// an action is not allowed, or if the episode has not ended after the last; what is recorded is then
+/// unspecified.
+bool FlyActions(uint64_t seed, std::span<const int16_t> actions, EpisodeRecorder& recorder);
+/// The same, with a recorder of its own.
 bool FlyActions(const World& world, uint64_t seed, std::span<const int16_t> actions, Episode& episode);
 
 }  // namespace fresco

@@ -25,7 +25,7 @@ TEST_F(ActorMemoryTest, OfEnvironmentsInFlightIsForetoldAtMost) {
       flyer->Start(TrainOrder(index, 1), network, network);
     }
     for (int slot = 1; slot < 59; ++slot) {  // one short of the end
-      flyer->Step([](const Order&, OrderResult&) {});
+      flyer->Step([](const Order&, const OrderResult&) {});
     }
     EXPECT_EQ(flyer->open_flights(), kEnvironments);
     return flyer;

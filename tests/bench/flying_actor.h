@@ -37,10 +37,10 @@ class FlyingActor {
         order.seed = static_cast<uint64_t>(order.index);
         flyer_.Start(order, parameters_, parameters_);
       }
-      flyer_.Step([&](const Order&, OrderResult& result) {
+      flyer_.Step([&](const Order&, const OrderResult& result) {
         ++ended;
         transitions += result.episode.transitions();
-        SplitResult(experiment_->world(), result, 1, [&](transitions_t message) {
+        SplitResult(experiment_->world(), result, 1, [&](transitions_t& message) {
           Stamp(message, {1, experiment_->hash()}, WallMicroseconds());
           Encode(message, bytes_);
           encoded_bytes_ += static_cast<double>(bytes_.size());

@@ -33,6 +33,19 @@ TEST(Crc32c, MatchesTheCheckValueOfTheCatalogue) {
   EXPECT_EQ(Crc32c(std::as_bytes(std::span(std::string_view("123456789")))), 0xE3069283u);
 }
 
+TEST(Crc32c, IsThatOfALoopOverBitsForEveryLength) {
+  std::vector<std::byte> bytes;
+  uint32_t remainder = ~0u;
+  for (int length = 0; length < 100; ++length) {
+    EXPECT_EQ(Crc32c(bytes), ~remainder) << length;
+    bytes.push_back(static_cast<std::byte>(37 * length + 11));
+    remainder ^= std::to_integer<uint32_t>(bytes.back());
+    for (int bit = 0; bit < 8; ++bit) {
+      remainder = (remainder >> 1) ^ ((remainder & 1) * 0x82F63B78u);
+    }
+  }
+}
+
 TEST(Crc32c, GoesOnWhereAnEarlierPartEnded) {
   const auto whole = Bytes({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13});
   for (size_t cut = 0; cut <= whole.size(); ++cut) {

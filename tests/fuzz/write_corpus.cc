@@ -67,7 +67,7 @@ void WriteTransitions(const std::filesystem::path& directory) {
       Bytes sample = {static_cast<std::byte>(number)};
       RandomStream stream(2, RandomPurpose::kTest, static_cast<uint32_t>(index), number);
       const OrderResult result = RandomResult(world, FuzzedOrder(index), stream);
-      SplitResult(world, result, 3, [&](transitions_t message) {
+      SplitResult(world, result, 3, [&](transitions_t& message) {
         Stamp(message, {1, 2}, 1);
         const Bytes bytes = Encoded(message);
         const auto encoding = std::span(bytes).first(bytes.size() - kTrailerBytes);

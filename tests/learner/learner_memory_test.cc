@@ -122,6 +122,9 @@ TEST_F(LearnerMemoryTest, OfOrdersInFlightIsForetoldAtMost) {
         EXPECT_EQ(ledger->Add(PartOf(run.world, result, first, 1)), Ledger::Arrival::kAccepted);
       }
     }
+    for (result.order_index = 0; result.order_index < kManyOrders; ++result.order_index) {
+      EXPECT_EQ(ledger->Add(PartOf(run.world, result, 0, 1)), Ledger::Arrival::kCompleted);
+    }
     return ledger;
   });
   const int64_t foretold = Ledger::BytesFor(run.world, kManyOrders);

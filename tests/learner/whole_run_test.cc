@@ -51,7 +51,7 @@ void Forger::Answer(const orders_t& message) {
     if (FromWire(wire, order)) {
       order.epsilon = 1;
       SplitResult(experiment_->world(), FlyOrder(*experiment_, order, zero, zero), wire.actor_id,
-                  [&](const transitions_t& part) {
+                  [&](transitions_t& part) {
                     MessageBus(*bus_).Publish(channels_.transitions, part, IdentityOf(message));
                   });
     }
@@ -120,8 +120,8 @@ class WholeRun : public ::testing::Test {
       for (size_t i = stepping; i < actors.size(); ++i) {
         actors[i]->Step(MonotonicMicroseconds());
       }
-      while (const auto next = learner.node.WaitForNext(0)) {
-        learner.trainer.Commit(next->order, next->episode);
+      while (auto next = learner.node.WaitForNext(0)) {
+        learner.trainer.Commit(next->order, std::move(next->episode));
         if (learner.trainer.progress().committed_orders % kOrdersPerCheckpoint == 0) {
           checkpoint = learner.trainer.Save();
         }

@@ -110,10 +110,10 @@ TEST(MessageBus, HandsOutWhatWasSentWithItsRunAndTheTimeOfSending) {
   std::vector<orders_t> received;
   receiver.Subscribe<orders_t>("A", [&](const orders_t& message) { received.push_back(message); });
   RandomStream stream(3, RandomPurpose::kTest, 0, 0);
-  const orders_t sent = OrdersOf(stream, 3);
+  orders_t sent = OrdersOf(stream, 3);
   const int64_t before = WallMicroseconds();
   EXPECT_TRUE(sender.Publish("A", sent, {77, 0xfeedu}));
-  EXPECT_TRUE(sender.Publish("B", sent, {77, 0xfeedu}));
+  EXPECT_TRUE(sender.Publish("B", orders_t(sent), {77, 0xfeedu}));
   PollAll(receiver);
   ASSERT_EQ(received.size(), 1u);
   EXPECT_EQ(IdentityOf(received[0]), (RunIdentity{77, 0xfeedu}));

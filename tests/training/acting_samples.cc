@@ -66,7 +66,7 @@ std::map<int64_t, OrderResult> FlyTogether(const Experiment& experiment, int cap
       flyer.Start(next->order, next->current, next->target);
     }
     flyer.Step(
-        [&](const Order& order, OrderResult& result) { flown.emplace(order.index, std::move(result)); });
+        [&](const Order& order, const OrderResult& result) { flown.emplace(order.index, result); });
   }
   return flown;
 }

@@ -126,7 +126,7 @@ TEST_P(FlyerOfCartPole, KeepsItsPlaceUntilTheLastErrorIsKnown) {
     OrderResult flown;
     for (; !flyer.Idle(); ++steps) {
       EXPECT_FALSE(flyer.HasRoom());
-      flyer.Step([&](const Order&, OrderResult& result) { flown = std::move(result); });
+      flyer.Step([&](const Order&, const OrderResult& result) { flown = result; });
     }
     EXPECT_EQ(steps, flown.episode.transitions() + (flown.episode.ending == Ending::kTruncated ? 1 : 0));
     EXPECT_EQ(flown.episode.ending == Ending::kTruncated,

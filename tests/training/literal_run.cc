@@ -52,7 +52,7 @@ OrderResult FlyOrder(const Experiment& experiment, const Order& order, std::shar
   flyer.Start(order, std::move(current), std::move(target));
   OrderResult flown;
   while (!flyer.Idle()) {
-    flyer.Step([&](const Order&, OrderResult& result) { flown = std::move(result); });
+    flyer.Step([&](const Order&, const OrderResult& result) { flown = result; });
   }
   return flown;
 }
