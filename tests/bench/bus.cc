@@ -14,6 +14,8 @@
 // flown beforehand. This is what the messages, the ledger, its check and the replay memory take. 1,024
 // episodes are in flight, since the learner sends orders every 2 ms.
 //
+// growth_actors_*: bus_ledger with so many actors, which the four processes play; beside four.
+//
 // weights_delivery_ms: the same learner, with four actors and quick's network. While they fly, the trainer's
 // side offers one version after the other; the time is that from the offer until the last of the four has the
 // complete version. The reference is the same bytes as one message by lcm_publish to four processes that wait
@@ -233,8 +235,9 @@ double FlownPerSecond(double seconds) {
   return CommittedPerSecond(learner, seconds);
 }
 
-/// Answers the learner's orders to this actor, each at once and with the same episode.
-void AnswerOrders(const Experiment& experiment, int64_t actor_id, const Episode& episode) {
+/// Answers the learner's orders to every fourth actor of `actors` from the first one on, each at once and
+/// with the same episode.
+void AnswerOrders(const Experiment& experiment, size_t first, size_t actors, const Episode& episode) {
   const std::unique_ptr<Bus> lcm = OpenLcmBus(kRunUrl);
   MessageBus bus(*lcm);
   const Channels channels = ChannelsWithPrefix(kDefaultChannelPrefix);
@@ -245,38 +248,40 @@ void AnswerOrders(const Experiment& experiment, int64_t actor_id, const Episode&
   bus.Subscribe<orders_t>(channels.orders, [&](const orders_t& message) {
     Order order;
     for (const order_t& wire : message.orders) {
-      if (wire.actor_id == actor_id && FromWire(wire, order)) {
+      if (static_cast<size_t>(wire.actor_id) % kActors == first && FromWire(wire, order)) {
         result.order_index = order.index;
         result.seed = order.seed;
-        SplitResult(experiment.world(), result, actor_id,
+        SplitResult(experiment.world(), result, wire.actor_id,
                     [&](transitions_t& part) { bus.Publish(channels.transitions, part, identity); });
       }
     }
   });
   actor_status_t status{};
-  status.actor_id = actor_id;
   status.capacity = static_cast<int32_t>(experiment.schedule().window());
   status.arithmetic_fingerprint = ArithmeticFingerprint();
   status.oldest_open_order = -1;
   for (int64_t next_us = 0;;) {
     if (const int64_t now_us = MonotonicMicroseconds(); now_us >= next_us) {
       next_us = now_us + kActorStatusPeriodUs;
-      bus.Publish(channels.actor_status, status, identity);
+      for (status.actor_id = static_cast<int64_t>(first + kActors);
+           status.actor_id < static_cast<int64_t>(actors + kActors); status.actor_id += kActors) {
+        bus.Publish(channels.actor_status, status, identity);
+      }
       ++status.sequence;
     }
     bus.Poll(kActorStatusPeriodUs);
   }
 }
 
-/// Four processes that answer without flying.
-double AnsweredPerSecond(double seconds) {
+/// So many actors that answer without flying, in up to four processes.
+double AnsweredPerSecond(size_t actors, double seconds) {
   const Experiment experiment =
       ExperimentWithoutUpdates({{"agent.hidden_layers", "8"}, {"schedule.window", "1024"}});
   const auto network = std::make_shared<const Vector>(
       InitialParameters(experiment.network_shape(), experiment.schedule().seed()));
   const Episode episode = FlyGreedily(experiment, 0, network);  // the field is the same in all of them
-  const ForkedProcesses actors(
-      kActors, [&](size_t number) { AnswerOrders(experiment, static_cast<int64_t>(number) + 1, episode); });
+  const ForkedProcesses processes(std::min(actors, kActors),
+                                  [&](size_t first) { AnswerOrders(experiment, first, actors, episode); });
   CommittingLearner learner(experiment);
   return CommittedPerSecond(learner, seconds);
 }
@@ -292,7 +297,7 @@ Results BusTransitions(double seconds) {
   int64_t best_pause_us = 0;
   for (int round = 0; round < kRounds; ++round) {
     flown = std::max(flown, FlownPerSecond(window_s));
-    answered = std::max(answered, AnsweredPerSecond(window_s));
+    answered = std::max(answered, AnsweredPerSecond(kActors, window_s));
     for (const int64_t pause_us : kPausesUs) {
       const double rate = BareMessagesPerSecond(messages.bytes, pause_us, window_s);
       if (rate > bare) {
@@ -308,6 +313,21 @@ Results BusTransitions(double seconds) {
   return {{MoreIsBetter("bus_transitions", flown, "transitions/s", reference, bare * messages.transitions),
            MoreIsBetter("bus_ledger", answered, "transitions/s", reference, bare * messages.transitions)},
           {}};
+}
+
+Subject GrownActors(size_t actors) {
+  const std::string name = fmt::format("growth_actors_{}", actors);
+  return {{name}, [=](double seconds) -> Results {
+            constexpr int kRounds = 3;
+            const double window_s = seconds / 10;
+            double grown = 0;
+            double usual = 0;
+            for (int round = 0; round < kRounds; ++round) {
+              grown = std::max(grown, AnsweredPerSecond(actors, window_s));
+              usual = std::max(usual, AnsweredPerSecond(kActors, window_s));
+            }
+            return {{MoreIsBetter(name, grown, "transitions/s", "four actors", usual)}, {}};
+          }};
 }
 
 /// What an actor, or a bare receiver, tells of the last version or message that it has.
@@ -432,7 +452,11 @@ Results WeightsDelivery(double seconds) {
 }  // namespace
 
 std::vector<Subject> BusSubjects() {
-  return {{{"bus_transitions", "bus_ledger"}, BusTransitions}, {{"weights_delivery_ms"}, WeightsDelivery}};
+  return {{{"bus_transitions", "bus_ledger"}, BusTransitions},
+          {{"weights_delivery_ms"}, WeightsDelivery},
+          GrownActors(1),
+          GrownActors(16),
+          GrownActors(64)};
 }
 
 }  // namespace fresco

@@ -144,40 +144,47 @@ std::string BenchJson(const BenchHead& head, const Results& results) {
   return json.dump(2);
 }
 
-std::vector<std::pair<std::string, double>> ReadRecordedRatios(const std::string& text,
-                                                               const std::string& origin,
-                                                               const std::vector<Subject>& subjects) {
+RecordedRatios ReadRecordedRatios(const std::string& text, const std::string& origin,
+                                  const std::vector<Subject>& subjects) {
   const std::vector<std::string> names = NamesOf(subjects);
   const auto json = OrderedJson::parse(text, nullptr, false);
-  Expect(json.is_object(), origin, "expected a JSON object, {\"name of a row\": ratio, …}");
-  std::vector<std::pair<std::string, double>> recorded;
-  for (const auto& [name, ratio] : json.items()) {
+  const auto is_text = [](const OrderedJson& object, const char* name) {
+    return object.is_object() && object.contains(name) && object[name].is_string();
+  };
+  const bool has_machine = json.is_object() && json.contains("machine") &&
+                           is_text(json["machine"], "processor") && is_text(json["machine"], "arithmetic");
+  Expect(has_machine && json.contains("rows") && json["rows"].is_array(), origin,
+         "expected what `fresco bench --format json` prints");
+  RecordedRatios recorded{json["machine"]["processor"], json["machine"]["arithmetic"], {}};
+  for (const auto& row : json["rows"]) {
+    Expect(is_text(row, "name"), origin, "expected a name in each of `rows`");
+    const std::string name = row["name"];
     Expect(Has(names, name), origin, fmt::format("there is no row \"{}\"{}", name, DidYouMean(name, names)));
+    const OrderedJson ratio = row.value("ratio", OrderedJson());
     Expect(ratio.is_number() && ratio.get<double>() > 0, origin,
            fmt::format("{}: expected a ratio above 0, found {}", name, ratio.dump()));
-    recorded.emplace_back(name, ratio.get<double>());
+    recorded.ratios.emplace_back(name, ratio.get<double>());
   }
   return recorded;
 }
 
-std::vector<std::string> FallenRows(const std::vector<std::pair<std::string, double>>& recorded,
-                                    const Results& results) {
+std::vector<FallenRow> FallenRows(const RecordedRatios& recorded, const Results& results) {
   constexpr double kLeastShare = 0.8;
-  std::vector<std::string> lines;
-  for (const auto& [name, ratio] : recorded) {
+  std::vector<FallenRow> fallen;
+  for (const auto& [name, ratio] : recorded.ratios) {
     for (const Row& row : results.rows) {
       if (row.name == name && !(row.ratio >= kLeastShare * ratio)) {
-        lines.push_back(fmt::format("{}: the ratio is {:.3f}, below {:.0f} % of the recorded {:.3f}", name,
-                                    row.ratio, 100 * kLeastShare, ratio));
+        fallen.push_back({name, fmt::format("the ratio is {:.3f}, below {:.0f} % of the recorded {:.3f}",
+                                            row.ratio, 100 * kLeastShare, ratio)});
       }
     }
     for (const AbsentRow& row : results.absent) {
       if (row.name == name) {
-        lines.push_back(fmt::format("{}: absent: {}; a ratio is recorded", name, row.reason));
+        fallen.push_back({name, fmt::format("absent: {}; a ratio is recorded", row.reason)});
       }
     }
   }
-  return lines;
+  return fallen;
 }
 
 }  // namespace fresco

@@ -70,14 +70,25 @@ std::string BenchTable(const BenchHead& head, const Results& results);
 /// The JSON object: `machine` (an object), `commit`, `rows` and `absent`.
 std::string BenchJson(const BenchHead& head, const Results& results);
 
-/// The ratios of the JSON object `text` (name: ratio). Throws UsageError, naming `origin`, if it is not such
-/// an object or names a row that no subject has.
-std::vector<std::pair<std::string, double>> ReadRecordedRatios(const std::string& text,
-                                                               const std::string& origin,
-                                                               const std::vector<Subject>& subjects);
+/// What BenchJson says of an earlier measurement.
+struct RecordedRatios {
+  std::string processor;
+  std::string arithmetic;
+  std::vector<std::pair<std::string, double>> ratios;  ///< names of rows and their ratios
+};
 
-/// A line for each recorded row whose ratio is below 80 % of the recorded one, or that is absent.
-std::vector<std::string> FallenRows(const std::vector<std::pair<std::string, double>>& recorded,
-                                    const Results& results);
+/// Reads the JSON of BenchJson. Throws UsageError, naming `origin`, if a member that is read is missing or
+/// names a row that no subject has.
+RecordedRatios ReadRecordedRatios(const std::string& text, const std::string& origin,
+                                  const std::vector<Subject>& subjects);
+
+/// A row that is absent, or whose ratio is below 80 % of the recorded one.
+struct FallenRow {
+  std::string name;
+  std::string reason;
+};
+
+/// The rows among `results` that have fallen.
+std::vector<FallenRow> FallenRows(const RecordedRatios& recorded, const Results& results);
 
 }  // namespace fresco

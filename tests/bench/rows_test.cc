@@ -92,34 +92,54 @@ TEST(Rows, AreATableForPeople) {
             "missing  absent: not installed\n");
 }
 
-TEST(RecordedRatios, AreReadFromAnObject) {
-  EXPECT_THAT(ReadRecordedRatios(R"({"slow": 0.5, "fast": 2})", "file", Subjects()),
-              ElementsAre(testing::Pair("slow", 0.5), testing::Pair("fast", 2.0)));
+TEST(RecordedRatios, AreReadFromWhatWasPrinted) {
+  const RecordedRatios recorded =
+      ReadRecordedRatios(BenchJson(SomeHead(), Measured({"slow", "fast"})), "file", Subjects());
+  EXPECT_EQ(recorded.processor, "a processor");
+  EXPECT_EQ(recorded.arithmetic, "x86-64-v3");
+  EXPECT_THAT(recorded.ratios, ElementsAre(testing::Pair("fast", 2.0), testing::Pair("slow", 0.5)));
 }
 
 TEST(RecordedRatios, AreRefusedWithTheNameOfTheFile) {
   const auto error = [](const std::string& text) {
     return ErrorOf([&] { ReadRecordedRatios(text, "ratios.json", Subjects()); });
   };
-  EXPECT_THAT(error("[]"), HasSubstr("ratios.json: expected a JSON object"));
-  EXPECT_THAT(error("{"), HasSubstr("ratios.json: expected a JSON object"));
-  EXPECT_THAT(error(R"({"fastt": 1})"),
+  const auto error_of_row = [&](const std::string& row) {
+    return error(R"({"machine": {"processor": "p", "arithmetic": "a"}, "rows": [)" + row + "]}");
+  };
+  for (const char* text : {"[]", "{", "{}", R"({"machine": {}, "rows": []})",
+                           R"({"machine": {"processor": "p", "arithmetic": 1}, "rows": []})",
+                           R"({"machine": {"processor": "p", "arithmetic": "a"}, "rows": 1})"}) {
+    EXPECT_THAT(error(text), HasSubstr("ratios.json: expected what `fresco bench --format json` prints"));
+  }
+  EXPECT_THAT(error_of_row("1"), HasSubstr("ratios.json: expected a name"));
+  EXPECT_THAT(error_of_row(R"({"name": "fastt", "ratio": 1})"),
               HasSubstr("ratios.json: there is no row \"fastt\"; did you mean fast?"));
-  EXPECT_THAT(error(R"({"fast": "2"})"), HasSubstr("fast: expected a ratio above 0, found \"2\""));
-  EXPECT_THAT(error(R"({"fast": 0})"), HasSubstr("fast: expected a ratio above 0, found 0"));
+  EXPECT_THAT(error_of_row(R"({"name": "fast", "ratio": "2"})"),
+              HasSubstr("fast: expected a ratio above 0, found \"2\""));
+  EXPECT_THAT(error_of_row(R"({"name": "fast", "ratio": 0})"),
+              HasSubstr("fast: expected a ratio above 0, found 0"));
+  EXPECT_THAT(error_of_row(R"({"name": "fast"})"), HasSubstr("fast: expected a ratio above 0, found null"));
+}
+
+std::vector<std::string> Fallen(std::vector<std::pair<std::string, double>> ratios, const Results& results) {
+  std::vector<std::string> lines;
+  for (const FallenRow& row : FallenRows({"p", "a", std::move(ratios)}, results)) {
+    lines.push_back(row.name + ": " + row.reason);
+  }
+  return lines;
 }
 
 TEST(RecordedRatios, AreFallenFromBelowEightyPercent) {
   const Results results = Measured({"fast", "slow"});
-  EXPECT_THAT(FallenRows({{"fast", 2.49}, {"slow", 0.62}}, results), IsEmpty());
-  EXPECT_THAT(FallenRows({{"fast", 2.51}, {"slow", 0.62}}, results),
+  EXPECT_THAT(Fallen({{"fast", 2.49}, {"slow", 0.62}}, results), IsEmpty());
+  EXPECT_THAT(Fallen({{"fast", 2.51}, {"slow", 0.62}}, results),
               ElementsAre("fast: the ratio is 2.000, below 80 % of the recorded 2.510"));
-  EXPECT_THAT(FallenRows({{"fast", 1}}, Results{{MoreIsBetter("fast", 0, "", "", 0)}, {}}),
-              SizeIs(1));  // 0 / 0
+  EXPECT_THAT(Fallen({{"fast", 1}}, Results{{MoreIsBetter("fast", 0, "", "", 0)}, {}}), SizeIs(1));  // 0 / 0
 }
 
 TEST(RecordedRatios, AreFallenIfTheirRowIsAbsent) {
-  EXPECT_THAT(FallenRows({{"missing", 1}}, Measured({"missing"})),
+  EXPECT_THAT(Fallen({{"missing", 1}}, Measured({"missing"})),
               ElementsAre("missing: absent: not installed; a ratio is recorded"));
 }
 

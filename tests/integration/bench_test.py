@@ -10,9 +10,13 @@ SHORT = ["--seconds", 0.05]
 
 
 class Bench(FrescoTest):
-    def check(self, ratios, expect):
+    def check(self, ratios, expect, **machine):
+        """Checks ratios that were recorded on this machine, or on another one."""
+        output, _ = self.run_fresco("bench", "--filter", "environment_acrobot", "--format", "json", *SHORT)
+        recorded = {"machine": json.loads(output)["machine"] | machine,
+                    "rows": [{"name": name, "ratio": ratio} for name, ratio in ratios.items()]}
         path = self.folder / "ratios.json"
-        path.write_text(json.dumps(ratios))
+        path.write_text(json.dumps(recorded))
         return self.run_fresco("bench", "--check", path, "--format", "json", *SHORT, expect=expect)
 
     def test_prints_each_row_beside_its_reference(self):
@@ -34,8 +38,15 @@ class Bench(FrescoTest):
         output, _ = self.check({"environment_cartpole": 1e-9}, expect=0)
         self.assertEqual([row["name"] for row in json.loads(output)["rows"]], ["environment_cartpole"])
         _, errors = self.check({"environment_cartpole": 1e9, "environment_uav": 1e-9}, expect=1)
-        self.assertIn("environment_cartpole: the ratio is", errors)
+        self.assertEqual(errors.count("environment_cartpole: the ratio is"), 2, "it was measured again")
         self.assertNotIn("environment_uav: the ratio is", errors)
+
+    def test_checks_nothing_that_was_recorded_on_another_machine(self):
+        for machine in ({"processor": "another"}, {"arithmetic": "another"}):
+            output, errors = self.check({"environment_cartpole": 1e9}, expect=0, **machine)
+            self.assertEqual(output, "")
+            self.assertIn("no ratio is checked", errors)
+            self.assertIn("another", errors)
 
     def test_refuses_wrong_use(self):
         for arguments, words in ((["--filter", "nothing"], ["--filter", "nothing", "environment_uav"]),
