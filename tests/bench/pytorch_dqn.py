@@ -29,7 +29,7 @@ from pytorch_update import flatten, literal_adam, updates_per_s
 TERMINAL, TRUNCATED = 1, 2  # Ending of worlds/world.h
 WAYS = {f"Adam {adam}, {'scripted' if scripted else 'not scripted'}, oneDNN {'on' if onednn else 'off'}":
         (adam, scripted, onednn)
-        for adam, scripted, onednn in itertools.product(("flat", "foreach", "default"), (False, True), (False, True))}
+        for adam, scripted, onednn in itertools.product(("flat", "foreach"), (False, True), (False, True))}
 
 
 class Columns:
@@ -81,7 +81,7 @@ class Dqn:
         else:
             self.flat = None
             self.optimizer = torch.optim.Adam(current.parameters(), betas=(options.beta1, options.beta2),
-                                              eps=options.epsilon, foreach=adam == "foreach")
+                                              eps=options.epsilon, foreach=True)
         self.parameters, self.target_parameters = list(current.parameters()), list(target.parameters())
         self.current = torch.jit.script(current) if scripted else current
         self.target = torch.jit.script(target) if scripted else target
@@ -93,7 +93,7 @@ class Dqn:
             linear = torch.nn.Linear(*reversed(weights.shape))
             linear.weight.data.copy_(torch.from_numpy(weights))
             linear.bias.data.copy_(torch.from_numpy(biases))
-            modules += [linear, torch.nn.ReLU()]
+            modules += [linear, torch.nn.ReLU(inplace=True)]
         return torch.nn.Sequential(*modules[:-1])
 
     @torch.no_grad()
