@@ -135,14 +135,18 @@ class Peer(unittest.TestCase):
         explorer = pytorch_dqn.Explorer(experiment, environments, np.ones(50))
         generator = np.random.default_rng(1)
         values = np.zeros((50, 15))
-        values[:, [2, 5, 8, 11]] = 1  # what no excursion may choose: a sensor that is not covered
-        for _ in range(3):
+        values[:, [2, 5, 8, 11]] = 1  # a move and the second sensor, which may not be covered
+        places, given_up = set(), 0
+        for _ in range(13):
             actions = explorer.choose(values, generator)
             self.assertTrue(environments.masks[range(50), actions].all())
-            flies = explorer.places >= 0
             self.assertTrue(environments.masks_towards(explorer.places)[range(50), actions].all())
-            self.assertGreater(len(set(explorer.places[flies])), 10)
+            places.update(explorer.places)
+            given_up += (explorer.places < 0).sum()  # the way there would lead too far from the stop
             environments.step(actions)
+        self.assertEqual(places, set(range(-1, 25)))
+        self.assertTrue(0 < given_up < 13 * 50 / 2, given_up)
+        self.assertTrue(all(environments.successes(50)))
 
     def test_overwrites_the_oldest_transitions(self):
         replay = pytorch_dqn.ReplayMemory(5, 1)
