@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "core/error.h"
+#include "core/files.h"
 
 namespace fresco {
 namespace {
@@ -14,12 +16,15 @@ namespace {
 constexpr char kPython[] = "/usr/bin/python3";  // the one that has Debian's python3-torch
 
 /// What may be the fastest on this processor: OpenBLAS's and PyTorch's choice of kernels, or another one.
-constexpr const char* kKernels[] = {"OPENBLAS_CORETYPE=",
-                                    "OPENBLAS_CORETYPE=SkylakeX",
-                                    "OPENBLAS_CORETYPE=Haswell",
-                                    "OPENBLAS_CORETYPE= ATEN_CPU_CAPABILITY=avx512",
-                                    "OPENBLAS_CORETYPE=SkylakeX ATEN_CPU_CAPABILITY=avx512",
-                                    "OPENBLAS_CORETYPE=Haswell ATEN_CPU_CAPABILITY=avx512"};
+/// Each is a line of settings for the environment.
+std::vector<std::string> Kernels() {
+  std::istringstream lines(ReadFile(FRESCO_BENCH_FOLDER "/pytorch_kernels"));
+  std::vector<std::string> kernels;
+  for (std::string line; std::getline(lines, line);) {
+    kernels.push_back(line);
+  }
+  return kernels;
+}
 
 }  // namespace
 
@@ -61,7 +66,7 @@ std::vector<std::unique_ptr<PyTorchUpdates>> PyTorchUpdates::StartAll(double sec
     return {};
   }
   std::vector<std::unique_ptr<PyTorchUpdates>> all;
-  for (const char* kernels : kKernels) {
+  for (const std::string& kernels : Kernels()) {
     std::unique_ptr<PyTorchUpdates> one(new PyTorchUpdates(kernels, seconds));
     if (!one->description_.empty()) {
       all.push_back(std::move(one));

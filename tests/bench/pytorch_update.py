@@ -29,19 +29,19 @@ def batches():
                -torch.rand(BATCH), (torch.rand(BATCH) > 1 / 69).float(), forbidden)
 
 
-def literal_adam(parameters):
-    """Adam over one flat vector: as few operations as PyTorch allows."""
+def literal_adam(parameters, beta1=0.9, beta2=0.999, epsilon=1e-8):
+    """Adam over one flat vector: as few operations as PyTorch allows. Returns a function that makes a step."""
     moments = [torch.zeros_like(parameters) for _ in range(2)]
     count = itertools.count(1)
 
     @torch.no_grad()
-    def step():
+    def step(learning_rate=1e-4):
         t = next(count)
         gradient = parameters.grad
-        moments[0].lerp_(gradient, 0.1)
-        moments[1].mul_(0.999).addcmul_(gradient, gradient, value=0.001)
-        scale = (moments[1].sqrt() / (1 - 0.999 ** t) ** 0.5).add_(1e-8)
-        parameters.addcdiv_(moments[0], scale, value=-1e-4 / (1 - 0.9 ** t))
+        moments[0].lerp_(gradient, 1 - beta1)
+        moments[1].mul_(beta2).addcmul_(gradient, gradient, value=1 - beta2)
+        scale = (moments[1].sqrt() / (1 - beta2 ** t) ** 0.5).add_(epsilon)
+        parameters.addcdiv_(moments[0], scale, value=-learning_rate / (1 - beta1 ** t))
     return step
 
 
