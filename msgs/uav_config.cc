@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "worlds/uav/physics.h"
+#include "worlds/uav/uav_fields.h"
 
 namespace fresco {
 namespace {
@@ -36,7 +39,7 @@ Scenario ToScenario(const proto::Scenario& from) {
   for (const proto::Sensor& sensor : from.sensor()) {
     scenario.sensors.push_back({sensor.x_m(), sensor.y_m(), sensor.weight()});
   }
-  if (from.has_random_sensors()) {
+  if (from.has_random_sensors() && !from.random_sensors().per_episode()) {
     scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m,
                                      from.random_sensors().count(), from.random_sensors().seed());
   }
@@ -53,6 +56,54 @@ Scenario ToScenario(const proto::Scenario& from) {
     scenario.maximum_aoi = from.maximum_aoi();
   }
   return scenario;
+}
+
+/// Throws UsageError if one of the limits is missing.
+Interval<double> ToInterval(const std::string& path, const proto::NumberRange& range) {
+  if (!range.has_minimum() || !range.has_maximum()) {
+    throw UsageError(fmt::format("scenario.random_field.{}: expected a minimum and a maximum", path));
+  }
+  return {range.minimum(), range.maximum()};
+}
+
+Interval<int> ToWholeInterval(const std::string& path, const proto::NumberRange& range) {
+  const Interval<double> limits = ToInterval(path, range);
+  constexpr double kLargest = 1e9;
+  for (const double limit : {limits.minimum, limits.maximum}) {
+    if (!(std::abs(limit) <= kLargest && limit == std::floor(limit))) {
+      throw UsageError(
+          fmt::format("scenario.random_field.{}: expected whole numbers, found {}", path, limit));
+    }
+  }
+  return {static_cast<int>(limits.minimum), static_cast<int>(limits.maximum)};
+}
+
+FieldRanges ToRanges(const proto::Scenario& from, const Scenario& scenario) {
+  const proto::RandomSensors& sensors = from.random_sensors();
+  const proto::RandomField& field = from.random_field();
+  FieldRanges ranges;
+  ranges.sensors = {sensors.has_minimum() ? sensors.minimum() : sensors.count(),
+                    sensors.has_maximum() ? sensors.maximum() : sensors.count()};
+  ranges.weight = field.has_weight() ? ToInterval("weight", field.weight()) : Interval<double>{1, 1};
+  ranges.coverage_radius_m = field.has_coverage_radius_m()
+                                 ? ToInterval("coverage_radius_m", field.coverage_radius_m())
+                                 : Interval<double>{scenario.coverage_radius_m, scenario.coverage_radius_m};
+  ranges.slots = field.has_slots() ? ToWholeInterval("slots", field.slots())
+                                   : Interval<int>{scenario.slots, scenario.slots};
+  ranges.any_start = field.any_start();
+  ranges.any_stop = field.any_stop();
+  return ranges;
+}
+
+/// Throws UsageError if the configuration says what only fields of an episode have, and has none of these.
+void CheckOneField(const proto::Scenario& scenario) {
+  const bool has_ranges = scenario.random_sensors().has_minimum() || scenario.random_sensors().has_maximum();
+  if (has_ranges || scenario.has_random_field()) {
+    throw UsageError(
+        fmt::format("scenario.{}: only for fields that are drawn for every episode; allowed with "
+                    "scenario.random_sensors.per_episode: true",
+                    has_ranges ? "random_sensors: minimum, maximum" : "random_field"));
+  }
 }
 
 }  // namespace
@@ -87,9 +138,13 @@ void CompleteScenario(proto::ExperimentConfig& config) {
 
 std::shared_ptr<const World> MakeUavWorld(const proto::ExperimentConfig& config) {
   const proto::Agent& agent = config.agent();
-  return std::make_shared<UavWorld>(
-      ToScenario(config.scenario()),
-      UavOptions{{agent.safe_action_mask(), agent.coverage_mask()}, {agent.sensor_geometry()}});
+  const Scenario scenario = ToScenario(config.scenario());
+  const UavOptions options{{agent.safe_action_mask(), agent.coverage_mask()}, {agent.sensor_geometry()}};
+  if (config.scenario().random_sensors().per_episode()) {
+    return std::make_shared<UavFields>(scenario, ToRanges(config.scenario(), scenario), options);
+  }
+  CheckOneField(config.scenario());
+  return std::make_shared<UavWorld>(scenario, options);
 }
 
 }  // namespace fresco

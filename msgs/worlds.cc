@@ -24,6 +24,7 @@ using Config = proto::ExperimentConfig;
 
 /// What viewers get of a kind of world. The worlds are of this kind.
 struct ViewerMessages {
+  bool (*are_for)(const World&);  // not every world of the kind needs to have them
   std::vector<scenario_t> (*of_world)(const World&);
   std::vector<flight_t> (*of_episode)(const World&, const Episode&, const std::string& policy);
 };
@@ -46,6 +47,7 @@ const UavWorld& Uav(const World& world) {
 }
 
 constexpr ViewerMessages kUavMessages = {
+    [](const World& world) { return AsUavWorld(world) != nullptr; },
     [](const World& world) { return ScenarioMessages(Uav(world)); },
     [](const World& world, const Episode& flight, const std::string& policy) {
       return FlightMessages(Uav(world), flight, policy);
@@ -90,7 +92,7 @@ void CheckCapabilities(const Config& config, const World& world) {
                     "no places to set out for",
                     config.schedule().excursion_share(), name));
   }
-  if (config.agent().flown_return_bound() && world.description().random) {
+  if (config.agent().flown_return_bound() && world.description().chance) {
     throw UsageError(
         fmt::format("agent.flown_return_bound: true; allowed: false, since in the world {} chance "
                     "decides what an episode earns",
@@ -122,7 +124,8 @@ std::shared_ptr<const World> MakeWorld(const Config& config) {
 }
 
 bool HasFlights(const Experiment& experiment) {
-  return KindOf(experiment.config()).viewer_messages != nullptr;
+  const ViewerMessages* messages = KindOf(experiment.config()).viewer_messages;
+  return messages != nullptr && messages->are_for(experiment.world());
 }
 
 std::vector<scenario_t> ScenarioMessages(const Experiment& experiment) {

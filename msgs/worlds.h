@@ -26,7 +26,7 @@ std::string CodeOf(const proto::ExperimentConfig& config);
 /// not fit together, or if another part of the configuration asks for what this world does not have.
 std::shared_ptr<const World> MakeWorld(const proto::ExperimentConfig& config);
 
-/// Whether viewers get messages of the experiment's kind of world: of the world itself (FRESCO_SCENARIO) and
+/// Whether viewers get messages of the experiment's world: of the world itself (FRESCO_SCENARIO) and
 /// of its episodes (FRESCO_FLIGHT).
 bool HasFlights(const Experiment& experiment);
 /// The messages of the world; none if !HasFlights. The caller fills in `utime`, `run_id` and `config_hash`.

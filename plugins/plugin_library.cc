@@ -99,6 +99,7 @@ PluginDescription DescriptionOf(const fresco_world_description& from) {
   world.discount = from.discount;
   world.repeatable = false;  // the learner does not run its code
   world.random = from.without_chance == 0;
+  world.chance = world.random;
   world.figures = {{"return", ""}};
   world.success = from.success;
   return to;

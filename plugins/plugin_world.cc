@@ -114,6 +114,7 @@ PluginDescription PluginDescriptionFrom(const std::string& text) {
     world.discount = json.at("discount");
     world.repeatable = false;
     world.random = !json.at("without_chance").get<bool>();
+    world.chance = world.random;
     world.figures = {{"return", ""}};
     world.success = json.at("success");
     description.success_return = json.at("success_return");

@@ -34,6 +34,11 @@ void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed) {
   }
 }
 
+bool IsAllowedNext(const Episode& episode, size_t i, int action, int actions) {
+  const auto byte = i * static_cast<size_t>(MaskSize(actions)) + static_cast<size_t>(action / 8);
+  return (episode.next_masks[byte] >> (action % 8) & 1) != 0;
+}
+
 double Return(const Episode& episode) {
   double sum = 0;
   for (const float reward : episode.rewards) {

@@ -43,6 +43,9 @@ inline int MaskSize(int actions) {
 /// Appends a mask with one byte for each action as bits, filled up to a byte.
 void AppendMask(std::span<const uint8_t> mask, std::vector<uint8_t>& packed);
 
+/// Whether the mask after transition i allows an action, in a world with so many actions.
+bool IsAllowedNext(const Episode& episode, size_t i, int action, int actions);
+
 /// The sum of the rewards, without discount, added in their order.
 double Return(const Episode& episode);
 

@@ -46,9 +46,11 @@ struct WorldDescription {
   /// Whether an episode is a pure function of the configuration, its seed and its actions, and cheap to
   /// repeat. If so, the learner flies every episode again and refuses a result that differs by a bit.
   bool repeatable = true;
-  /// Whether the seed decides anything. If not, one evaluation is exact, and what an episode earned can be
-  /// earned again.
+  /// Whether the seed decides anything. If not, one evaluation is exact.
   bool random = true;
+  /// Whether the same action in the same state may have another result. If not, what an episode earned from a
+  /// state on can be earned again.
+  bool chance = true;
   std::vector<Quantity> figures;  ///< what an episode is judged by; the first one is its score
   bool less_is_better = false;    ///< of two scores
   std::string success;            ///< what an episode that succeeds did, e.g. "arrived"

@@ -22,7 +22,7 @@ CONFIGS = [
     ("cartpole { maximum_steps: 0 }", ["cartpole.maximum_steps", "0", "allowed"]),
     ("cartpole {} agent { coverage_mask: true }", ["agent.coverage_mask", "true", "allowed", "cartpole"]),
     ("acrobot {} schedule { excursion_share: 0.5 }", ["schedule.excursion_share", "0.5", "allowed", "acrobot"]),
-    ("cartpole {} agent { flown_return_bound: true }", ["agent.flown_return_bound", "true", "allowed", "cartpole"]),
+    ("scenario { random_field { any_stop: true } }", ["scenario.random_field", "per_episode: true"]),
 ]
 # What every program refuses that is on a bus.
 URLS = [

@@ -136,6 +136,8 @@ class Plugin(FrescoTest):
                 'python { object: "pole" }': "expected module:Class",
                 f'python {{ object: "none:CartPole" path: "{PYTHON_WORLDS}" }}': "none.py",
                 f'python {{ object: "pole:None" path: "{PYTHON_WORLDS}" }}': "has no attribute 'None'",
+                f'python {{ object: "pole:CartPole" path: "{PYTHON_WORLDS}" }} agent {{ flown_return_bound: true }}':
+                    "chance decides what an episode earns",
                 f'plugin {{ library: "{EXAMPLE}" }} cartpole {{}}': "another member of oneof",
                 f'plugin {{ library: "{EXAMPLE}" }} agent {{ safe_action_mask: true }}': "safe_action_mask"}.items():
             with self.subTest(world=world):

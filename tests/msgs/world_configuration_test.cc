@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "msgs/experiment.h"
+#include "msgs/worlds.h"
 #include "tests/support/error_of.h"
 
 namespace fresco {
@@ -107,11 +108,56 @@ TEST(ExcursionShare, IsRefusedInWorldsWithoutPlaces) {
   EXPECT_NO_THROW(Configured("scenario {} schedule { excursion_share: 0.25 }"));
 }
 
-TEST(FlownReturnBound, IsRefusedInWorldsWithChance) {
-  EXPECT_EQ(RefusalOf("acrobot {} agent { flown_return_bound: true }"),
-            "my.textproto: agent.flown_return_bound: true; allowed: false, since in the world acrobot chance "
-            "decides what an episode earns");
-  EXPECT_NO_THROW(Configured("scenario {} agent { flown_return_bound: true }"));
+TEST(FlownReturnBound, IsAllowedInWorldsWithoutChance) {
+  for (const char* world :
+       {"scenario {}", "acrobot {}", "cartpole {}", "scenario { random_sensors { per_episode: true } }"}) {
+    EXPECT_NO_THROW(Configured(std::string(world) + " agent { flown_return_bound: true }")) << world;
+  }
+}
+
+TEST(FieldsOfEpisodes, HaveTheRangesOfTheConfiguration) {
+  const Experiment experiment = Configured(R"(scenario {
+    random_sensors { per_episode: true minimum: 2 maximum: 4 }
+    random_field { slots { minimum: 60 maximum: 70 } coverage_radius_m { minimum: 50 maximum: 125 } any_start: true }
+  })");
+  const World& world = experiment.world();
+  EXPECT_EQ(world.actions(), 5 * (1 + 4));
+  EXPECT_EQ(world.longest_episode(), 69);
+  EXPECT_EQ(world.observation_size(), 7 + 4 * 7);
+  EXPECT_TRUE(world.description().random);
+  EXPECT_FALSE(HasFlights(experiment));
+  EXPECT_EQ(Configured("scenario { random_sensors { per_episode: true count: 6 } }").world().actions(),
+            5 * (1 + 6));
+}
+
+TEST(FieldsOfEpisodes, AreRefusedWithTheFieldThatIsWrong) {
+  const auto refusal = [](const std::string& sensors, const std::string& field) {
+    return RefusalOf("scenario { random_sensors { " + sensors + " } " + field + " }");
+  };
+  const std::string per_episode = "per_episode: true";
+  EXPECT_THAT(refusal("minimum: 2", ""),
+              HasSubstr("random_sensors: minimum, maximum: only for fields that are drawn"));
+  EXPECT_THAT(refusal("", "random_field { any_stop: true }"),
+              HasSubstr("scenario.random_field: only for fields"));
+  EXPECT_THAT(refusal(per_episode + " minimum: 4 maximum: 2", ""),
+              HasSubstr("random_sensors: minimum and maximum: 4 to 2"));
+  EXPECT_THAT(refusal(per_episode, "random_field { slots { minimum: 60 } }"),
+              HasSubstr("scenario.random_field.slots: expected a minimum and a maximum"));
+  EXPECT_THAT(refusal(per_episode, "random_field { slots { minimum: 60.5 maximum: 70 } }"),
+              HasSubstr("scenario.random_field.slots: expected whole numbers, found 60.5"));
+  EXPECT_THAT(refusal(per_episode, "random_field { slots { minimum: 60 maximum: 1e300 } }"),
+              HasSubstr("whole numbers"));
+  EXPECT_THAT(refusal(per_episode, "random_field { slots { minimum: nan maximum: 70 } }"),
+              HasSubstr("whole numbers"));
+  EXPECT_THAT(
+      refusal(per_episode, "random_field { slots { minimum: 30 maximum: 70 } any_stop: true }"),
+      HasSubstr("scenario.random_field.slots: 30 is out of range: a stop may be 38 moves from the start"));
+  EXPECT_THAT(refusal(per_episode, "random_field { weight { minimum: 0 maximum: 1 } }"),
+              HasSubstr("scenario.random_field.weight: 0 to 1 is out of range"));
+  EXPECT_THAT(refusal(per_episode, "random_field { coverage_radius_m { minimum: nan maximum: 1 } }"),
+              HasSubstr("scenario.random_field.coverage_radius_m: nan to 1"));
+  EXPECT_THAT(refusal(per_episode, "initial_energy_j: 5000"),
+              HasSubstr("scenario.initial_energy_j: 5000 is out of range"));
 }
 
 TEST(EvaluationEpisodes, HaveARange) {

@@ -29,6 +29,7 @@ WorldDescription DescribeAcrobot(int maximum_steps) {
   description.observation_size = 6;
   description.longest_episode = maximum_steps;
   description.discount = 0.99;
+  description.chance = false;
   description.figures = {{"return", ""}};
   description.success = "swung_up";
   return description;

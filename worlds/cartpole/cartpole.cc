@@ -26,6 +26,7 @@ WorldDescription DescribeCartPole(int maximum_steps) {
   description.observation_size = 4;
   description.longest_episode = maximum_steps;
   description.discount = 0.99;
+  description.chance = false;
   description.figures = {{"return", ""}};
   description.success = "balanced";
   return description;

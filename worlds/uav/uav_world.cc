@@ -130,6 +130,7 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.observation_size = NetworkInput::Size(static_cast<int>(sensors), options.network_input);
   description.longest_episode = scenario.slots - 1;
   description.random = false;
+  description.chance = false;
   description.figures = {{"average_aoi", "slots"}, {"total_aoi", "slots"}, {"sum_aoi", "slots"}};
   description.less_is_better = true;
   description.success = "arrived";
@@ -138,14 +139,6 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
 
 double RoundTo(double value, double quantum) {
   return std::nearbyint(value / quantum) * quantum;
-}
-
-// Whether the horizontal distance is at most R, with a tolerance of a billionth, so that a radius converted
-// to a transmission power and back covers the same cells, and so does one whose last bits depend on the
-// mathematical library.
-bool Within(const Scenario& scenario, Cell cell, const Sensor& sensor) {
-  constexpr double kLeeway = 1 + 1e-9;
-  return HorizontalDistance(cell, scenario.cell_m, sensor) <= scenario.coverage_radius_m * kLeeway;
 }
 
 }  // namespace
@@ -220,7 +213,8 @@ void UavWorld::DeriveCoverage() {
   for (int row = 0; row < scenario_.rows; ++row) {
     for (int column = 0; column < scenario_.columns; ++column) {
       for (const Sensor& sensor : scenario_.sensors) {
-        coverage_.push_back(Within(scenario_, {column, row}, sensor));
+        coverage_.push_back(IsWithin(scenario_.coverage_radius_m,
+                                     HorizontalDistance({column, row}, scenario_.cell_m, sensor)));
       }
     }
   }

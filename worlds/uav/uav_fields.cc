@@ -1,0 +1,315 @@
+#include "worlds/uav/uav_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "worlds/uav/flight.h"
+#include "worlds/uav/uav_environment.h"
+
+namespace fresco {
+namespace {
+
+constexpr size_t kOwnInputs = 7;
+constexpr size_t kSensorInputs = 7;
+
+/// Rounded to the precision of a state, so that a state says the field exactly.
+double AsInAState(double value) {
+  return static_cast<float>(value);
+}
+
+int DrawInteger(Interval<int> range, RandomStream& stream) {
+  return range.minimum +
+         static_cast<int>(stream.NextBelow(static_cast<uint32_t>(range.maximum - range.minimum + 1)));
+}
+
+double DrawNumber(Interval<double> range, RandomStream& stream) {
+  return AsInAState(range.minimum + (range.maximum - range.minimum) * stream.NextUniform());
+}
+
+Cell DrawCell(const Scenario& scenario, RandomStream& stream) {
+  const auto column = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario.columns)));
+  return {column, static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario.rows)))};
+}
+
+/// A field with the most sensors and slots: its states, actions and limits are those of all fields.
+Scenario Largest(Scenario scenario, const FieldRanges& ranges) {
+  scenario.sensors.assign(static_cast<size_t>(std::max(ranges.sensors.maximum, 0)), Sensor{});
+  scenario.coverage_radius_m = ranges.coverage_radius_m.maximum;
+  scenario.slots = ranges.slots.maximum;
+  return scenario;
+}
+
+template <class Number>
+void CheckInterval(const char* path, Interval<Number> range, Number least, Number most) {
+  if (!(range.minimum >= least && range.minimum <= range.maximum && range.maximum <= most)) {
+    throw UsageError(
+        fmt::format("{}: {} to {} is out of range; allowed: a minimum of at least {} that is not above "
+                    "the maximum, which is at most {}",
+                    path, range.minimum, range.maximum, least, most));
+  }
+}
+
+const FieldRanges& CheckedRanges(const FieldRanges& ranges) {
+  CheckInterval("scenario.random_sensors: minimum and maximum", ranges.sensors, 1, kMaximumSensors);
+  CheckInterval("scenario.random_field.weight", ranges.weight, 1e-6, 1e6);
+  CheckInterval("scenario.random_field.coverage_radius_m", ranges.coverage_radius_m, 0.0, 1e6);
+  CheckInterval("scenario.random_field.slots", ranges.slots, 2, 10'000);
+  return ranges;
+}
+
+WorldDescription DescribeFields(const Scenario& common, const FieldRanges& ranges,
+                                const UavOptions& options) {
+  WorldDescription description = UavWorld(Largest(common, CheckedRanges(ranges)), options).description();
+  description.random = true;
+  description.chance = false;
+  description.state.insert(description.state.end(), {{"slots", "slots"},
+                                                     {"coverage_radius_m", "m"},
+                                                     {"start_column", "cells"},
+                                                     {"start_row", "cells"},
+                                                     {"stop_column", "cells"},
+                                                     {"stop_row", "cells"}});
+  for (int sensor = 1; sensor <= ranges.sensors.maximum; ++sensor) {
+    description.state.push_back({fmt::format("sensor_{}_x_m", sensor), "m"});
+    description.state.push_back({fmt::format("sensor_{}_y_m", sensor), "m"});
+    description.state.push_back({fmt::format("sensor_{}_weight", sensor), ""});
+  }
+  description.observation_size =
+      static_cast<int>(kOwnInputs + kSensorInputs * static_cast<size_t>(ranges.sensors.maximum));
+  return description;
+}
+
+/// Draws a field in Reset and flies in it.
+class UavFieldsEnvironment : public Environment {
+ public:
+  explicit UavFieldsEnvironment(const UavFields& fields)
+      : fields_(&fields), field_part_(fields.layout().size()) {}
+
+  void Reset(uint64_t seed) override {
+    environment_.reset();
+    field_ = std::make_unique<UavWorld>(fields_->Draw(seed), fields_->options());
+    environment_ = std::make_unique<UavEnvironment>(*field_);
+    field_mask_.resize(static_cast<size_t>(field_->actions()));
+    fields_->WriteField(field_->scenario(), field_part_);
+  }
+
+  StepResult Step(int action) override {
+    return environment_->Step(fields_->ActionAt(action, field_->sensors()));
+  }
+
+  void WriteState(std::span<float> state) const override {
+    std::copy(field_part_.begin(), field_part_.end(), state.begin());
+    environment_->WriteState(state.first(static_cast<size_t>(field_->state_size())));
+  }
+
+  void WriteMask(std::span<uint8_t> mask) const override {
+    environment_->WriteMask(field_mask_);
+    const auto here = static_cast<size_t>(field_->sensors()) + 1;
+    const auto all = static_cast<size_t>(fields_->schedules());
+    std::fill(mask.begin(), mask.end(), uint8_t{0});
+    for (size_t move = 0; move < kMoves; ++move) {
+      std::copy_n(field_mask_.begin() + static_cast<int64_t>(move * here), here,
+                  mask.begin() + static_cast<int64_t>(move * all));
+    }
+  }
+
+ private:
+  const UavFields* fields_;
+  std::unique_ptr<const UavWorld> field_;
+  std::unique_ptr<UavEnvironment> environment_;
+  std::vector<float> field_part_;  // a state with nothing but the field
+  mutable std::vector<uint8_t> field_mask_;
+};
+
+}  // namespace
+
+UavFields::UavFields(Scenario common, FieldRanges ranges, UavOptions options)
+    : World(DescribeFields(common, ranges, options)),
+      common_(std::move(common)),
+      ranges_(ranges),
+      options_(options) {
+  CheckEveryStopIsReachable();
+}
+
+void UavFields::CheckEveryStopIsReachable() const {
+  Scenario scenario = Largest(common_, ranges_);
+  const UavWorld largest(scenario, options_);
+  const bool anywhere = ranges_.any_start || ranges_.any_stop;
+  const int farthest = anywhere ? common_.columns + common_.rows - 2 : largest.DistanceToStop(common_.start);
+  for (int slots = ranges_.slots.minimum; slots <= ranges_.slots.maximum; ++slots) {
+    if (farthest > slots - 1) {
+      throw UsageError(
+          fmt::format("scenario.random_field.slots: {} is out of range: a stop may be {} moves from the "
+                      "start; allowed: at least {}",
+                      slots, farthest, farthest + 1));
+    }
+    for (int distance = anywhere ? 0 : farthest; distance <= farthest; ++distance) {
+      const double needed_j = CompletionEnergy(largest, distance, slots - 1);
+      if (needed_j > common_.initial_energy_j) {
+        throw UsageError(
+            fmt::format("scenario.initial_energy_j: {} is out of range: a flight of {} slots to a stop {} "
+                        "moves away takes {:.6g} "
+                        "J; allowed: at least that",
+                        common_.initial_energy_j, slots, distance, needed_j));
+      }
+    }
+  }
+}
+
+std::unique_ptr<Environment> UavFields::NewEnvironment() const {
+  return std::make_unique<UavFieldsEnvironment>(*this);
+}
+
+Scenario UavFields::Draw(uint64_t seed) const {
+  RandomStream stream(seed, RandomPurpose::kEpisodeStart, 0, 0);
+  Scenario field = common_;
+  const int sensors = DrawInteger(ranges_.sensors, stream);
+  field.coverage_radius_m = DrawNumber(ranges_.coverage_radius_m, stream);
+  field.slots = DrawInteger(ranges_.slots, stream);
+  field.start = ranges_.any_start ? DrawCell(common_, stream) : common_.start;
+  field.stop = ranges_.any_stop ? DrawCell(common_, stream) : common_.stop;
+  field.sensors = RandomSensors(common_.columns, common_.rows, common_.cell_m, sensors, seed);
+  for (Sensor& sensor : field.sensors) {
+    sensor = {AsInAState(sensor.x_m), AsInAState(sensor.y_m), DrawNumber(ranges_.weight, stream)};
+  }
+  return field;
+}
+
+void UavFields::WriteField(const Scenario& field, std::span<float> state) const {
+  const UavFieldsLayout at = layout();
+  std::fill(state.begin(), state.end(), 0.0f);
+  state[at.slots()] = static_cast<float>(field.slots);
+  state[at.coverage_radius_m()] = static_cast<float>(field.coverage_radius_m);
+  state[at.start()] = static_cast<float>(field.start.column);
+  state[at.start() + 1] = static_cast<float>(field.start.row);
+  state[at.stop()] = static_cast<float>(field.stop.column);
+  state[at.stop() + 1] = static_cast<float>(field.stop.row);
+  for (size_t sensor = 0; sensor < field.sensors.size(); ++sensor) {
+    state[at.sensor(sensor)] = static_cast<float>(field.sensors[sensor].x_m);
+    state[at.sensor(sensor) + 1] = static_cast<float>(field.sensors[sensor].y_m);
+    state[at.sensor(sensor) + 2] = static_cast<float>(field.sensors[sensor].weight);
+  }
+}
+
+Scenario UavFields::FieldIn(std::span<const float> state) const {
+  const UavFieldsLayout at = layout();
+  FRESCO_CHECK(state.size() == at.size());
+  const auto whole = [&](size_t index) { return static_cast<int>(state[index]); };
+  Scenario field = common_;
+  field.slots = whole(at.slots());
+  field.coverage_radius_m = state[at.coverage_radius_m()];
+  field.start = {whole(at.start()), whole(at.start() + 1)};
+  field.stop = {whole(at.stop()), whole(at.stop() + 1)};
+  field.sensors.clear();
+  for (size_t sensor = 0; sensor < at.most && state[at.sensor(sensor) + 2] > 0; ++sensor) {
+    field.sensors.push_back(
+        {state[at.sensor(sensor)], state[at.sensor(sensor) + 1], state[at.sensor(sensor) + 2]});
+  }
+  return field;
+}
+
+void UavFields::Observe(std::span<const float> state, std::span<float> observation) const {
+  FRESCO_CHECK(state.size() == layout().size());
+  FRESCO_CHECK(observation.size() == static_cast<size_t>(observation_size()));
+  const UavFieldsLayout at = layout();
+  const auto longer_side = static_cast<float>(std::max(common_.columns, common_.rows));
+  const float longer_side_m = longer_side * static_cast<float>(common_.cell_m);
+  const Cell cell = CellIn(state);
+  const float slots = state[at.slots()];
+  const float radius_m = state[at.coverage_radius_m()];
+  float total_weight = 0;
+  for (size_t sensor = 0; sensor < at.most; ++sensor) {
+    total_weight += state[at.sensor(sensor) + 2];
+  }
+  auto input = observation.begin();
+  *input++ = state[kColumnField] / longer_side;
+  *input++ = state[kRowField] / longer_side;
+  *input++ = (state[at.stop()] - state[kColumnField]) / longer_side;
+  *input++ = (state[at.stop() + 1] - state[kRowField]) / longer_side;
+  *input++ = state[kTimeMarginField] / slots;
+  *input++ = state[kEnergyMarginField] / static_cast<float>(common_.initial_energy_j);
+  *input++ = radius_m / longer_side_m;
+  for (size_t number = 0; number < at.most; ++number) {
+    const std::span<const float> fields = state.subspan(at.sensor(number), 3);
+    if (fields[2] == 0) {
+      input = std::fill_n(input, kSensorInputs, 0.0f);
+      continue;
+    }
+    const Sensor sensor = {fields[0], fields[1], fields[2]};
+    const double distance_m = HorizontalDistance(cell, common_.cell_m, sensor);
+    *input++ = 1;
+    *input++ = static_cast<float>(sensor.x_m - cell.column * common_.cell_m) / longer_side_m;
+    *input++ = static_cast<float>(sensor.y_m - cell.row * common_.cell_m) / longer_side_m;
+    *input++ = static_cast<float>(distance_m) / longer_side_m;
+    *input++ = IsWithin(radius_m, distance_m) ? 1.0f : 0.0f;
+    *input++ = state[kAoiField + number] / slots;
+    *input++ = fields[2] / total_weight;
+  }
+}
+
+Action UavFields::ActionAt(int index, int sensors) const {
+  FRESCO_CHECK(index >= 0 && index < actions());
+  const int schedule = index % schedules();
+  return {static_cast<Move>(index / schedules()), schedule <= sensors ? schedule : 0};
+}
+
+std::unique_ptr<const UavWorld> UavFields::WorldOf(const Episode& episode) const {
+  return std::make_unique<const UavWorld>(FieldIn(episode.state(0)), options_);
+}
+
+Episode UavFields::InItsField(const UavWorld& field, const Episode& episode) const {
+  Episode flight;
+  flight.seed = episode.seed;
+  flight.ending = episode.ending;
+  flight.rewards = episode.rewards;
+  for (size_t i = 0; i <= episode.actions.size(); ++i) {
+    const auto state = episode.state(i).first(static_cast<size_t>(field.state_size()));
+    flight.states.insert(flight.states.end(), state.begin(), state.end());
+  }
+  std::vector<uint8_t> mask(static_cast<size_t>(field.actions()));
+  for (size_t i = 0; i < episode.actions.size(); ++i) {
+    flight.actions.push_back(
+        static_cast<int16_t>(field.ActionIndex(ActionAt(episode.actions[i], field.sensors()))));
+    for (int action = 0; action < field.actions(); ++action) {
+      const Action in_field = field.ActionAt(action);
+      const int index = static_cast<int>(in_field.move) * schedules() + in_field.schedule;
+      mask[static_cast<size_t>(action)] = IsAllowedNext(episode, i, index, actions());
+    }
+    AppendMask(mask, flight.next_masks);
+  }
+  return flight;
+}
+
+void UavFields::Judge(const Episode& episode, std::span<double> figures) const {
+  const auto field = WorldOf(episode);
+  field->Judge(InItsField(*field, episode), figures);
+}
+
+bool UavFields::Succeeded(const Episode& episode) const {
+  return Arrived(episode);
+}
+
+EpisodeAccount UavFields::Tell(const Episode& flight) const {
+  const auto field = WorldOf(flight);
+  return field->Tell(InItsField(*field, flight));
+}
+
+int UavFields::DrawPlace(RandomStream& stream) const {
+  const Cell cell = DrawCell(common_, stream);
+  return cell.row * common_.columns + cell.column;
+}
+
+bool UavFields::IsAt(std::span<const float> state, int place) const {
+  const Cell cell = CellIn(state);
+  return cell.row * common_.columns + cell.column == place;
+}
+
+ActionRange UavFields::Towards(std::span<const float> state, int place) const {
+  const Cell goal = {place % common_.columns, place / common_.columns};
+  const int first = static_cast<int>(MoveTowards(CellIn(state), goal)) * schedules();
+  return {first, first + schedules()};
+}
+
+}  // namespace fresco
