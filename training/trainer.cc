@@ -27,7 +27,7 @@ void Average(double value, double& average) {
 }  // namespace
 
 int LearnerThreads(const proto::Run& run) {
-  return run.learner_threads() > 0 ? run.learner_threads() : std::max(1, ProcessorCount() - 1);
+  return run.learner_threads() > 0 ? run.learner_threads() : ProcessorCount() - ProcessorCount() / 4;
 }
 
 Trainer::Trainer(const Experiment& experiment, TrainerOutput output, int threads)

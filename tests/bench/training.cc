@@ -1,10 +1,10 @@
 // Whole trainings by real processes.
 //
 // train_busy: the part of the wall time that the learner's training thread uses a processor during `fresco
-// train` with the default experiment and fewer episodes, from its first update on; the reference is all of
-// the time. train_updates: the updates a second in that time, beside the same update in a loop that does
-// nothing else (update.cc measures that one beside its roof), in turns with the trainings. Of three trainings
-// the best counts.
+// train` with the default experiment, fewer episodes and one learner thread, from its first update on; the
+// reference is all of the time. train_updates: the updates a second in that time, beside the same update in a
+// loop that does nothing else (update.cc measures that one beside its roof), in turns with the trainings. Of
+// three trainings the best counts.
 //
 // learner_memory_mb, actor_memory_mb: the most resident memory of a learner and of an actor at the paper's
 // sizes, with the replay memory full and without the search for the optimum, whose memory
@@ -53,10 +53,11 @@ void WaitForSuccess(
 nlohmann::json UpdatingOfTraining(int episodes) {
   const TemporaryFolder folder;
   const std::filesystem::path log = folder.path() / "log";
-  ChildProcess process({SiblingProgram("fresco").string(), "train", "--out", folder.path() / "run",
-                        "--lcm-url", kTrainingUrl, "--set", fmt::format("schedule.episodes={}", episodes),
-                        "--set", "run.optimum_limit_s=0", "--format", "json"},
-                       log);
+  ChildProcess process(
+      {SiblingProgram("fresco").string(), "train", "--out", folder.path() / "run", "--lcm-url", kTrainingUrl,
+       "--set", fmt::format("schedule.episodes={}", episodes), "--set", "run.learner_threads=1", "--set",
+       "run.optimum_limit_s=0", "--format", "json"},
+      log);
   WaitForSuccess(process, log);
   return nlohmann::json::parse(ReadFile(folder.path() / "run" / "summary.json")).at("updating");
 }

@@ -1,4 +1,5 @@
-"""The promises of the README in a world with chance: CartPole, in which seeds decide where episodes begin."""
+"""The promises of the README in worlds whose episodes differ by their seeds: CartPole, in which these decide where
+an episode begins, and the UAV's world with a new field in every episode."""
 import csv
 import json
 import math
@@ -15,6 +16,16 @@ agent { hidden_layers: [16] double_dqn: true batch_size: 16 replay_capacity: 200
   linear { initial: 5e-3 final: 1e-4 } }
 schedule { episodes: 400 inserts_per_update: 4 minimum_replay_size: 200 window: 8 updates_per_version: 20
   versions_per_evaluation: 5 evaluation_episodes: 5 ladder { base: 0.3 exponent: 3 } }
+"""
+# Few sensors over a small grid, all of it drawn.
+FIELDS = """scenario { grid { columns: 6 rows: 6 } slots: 16 start { column: 0 row: 0 } stop { column: 3 row: 5 }
+  random_sensors { per_episode: true minimum: 1 maximum: 3 }
+  random_field { coverage_radius_m { minimum: 25 maximum: 50 } slots { minimum: 12 maximum: 16 } any_start: true
+    weight { minimum: 0.5 maximum: 2 } } }
+agent { hidden_layers: [32] batch_size: 32 replay_capacity: 5000 target_update_period: 50 safe_action_mask: true
+  coverage_mask: true flown_return_bound: true linear { initial: 5e-3 final: 1e-4 } }
+schedule { episodes: 600 inserts_per_update: 4 minimum_replay_size: 200 window: 8 updates_per_version: 50
+  versions_per_evaluation: 10 evaluation_episodes: 10 excursion_share: 0.3 ladder { base: 0.3 exponent: 3 } }
 """
 LONGER = ("--set", "schedule.episodes=4000")
 COLUMNS = ["utime", "run_id", "order_index", "actor_id", "seed", "transition", "ending", "position", "velocity", "angle",
@@ -48,6 +59,25 @@ class Worlds(FrescoTest):
         self.assertEqual(one["balanced"], one["success"] == 1)
         for key in one:
             self.assertNotRegex(key, "aoi|optim|baseline|gap|bound|arrived")
+
+    def test_gives_the_same_weights_if_every_episode_has_a_field_of_its_own(self):
+        path = self.folder / "fields.textproto"
+        path.write_text(FIELDS)
+        one = self.train(17666, "one", "--actors", 1, config=path)
+        four = self.train(17666, "four", "--actors", 4, "--record", config=path)
+        for key in ("weights_crc32c", "transitions", "updates", "average_aoi", "success"):
+            self.assertEqual(four[key], one[key], key)
+        self.assertEqual(one["success"], 1)  # the mask keeps every stop within reach
+        log = self.folder / "four" / "traffic.lcm"
+        again = json.loads(self.run_fresco("retrain", log, "--strict", "--out", self.folder / "again", "--format",
+                                           "json")[0])
+        self.assertEqual(again["weights_crc32c"], one["weights_crc32c"])
+        rows = list(csv.DictReader(self.run_fresco("log", "export", log)[0].splitlines()))
+        self.assertLessEqual({row["slots"] for row in rows}, {"12", "13", "14", "15", "16"})
+        self.assertGreater(len({(row["sensor_1_x_m"], row["sensor_1_y_m"]) for row in rows}), 500)
+        figures = json.loads(self.run_fresco("evaluate", "--policy", self.folder / "one", "--episodes", 20, "--format",
+                                             "json")[0])
+        self.assertEqual(len({episode["total_aoi"] for episode in figures["episodes"]} - {None}) > 10, True)
 
     def test_gives_the_same_weights_however_often_the_learner_is_killed(self):
         often = (*LONGER, "--set", "run.checkpoint_interval_s=0.02")
