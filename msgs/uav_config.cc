@@ -89,7 +89,7 @@ std::shared_ptr<const World> MakeUavWorld(const proto::ExperimentConfig& config)
   const proto::Agent& agent = config.agent();
   return std::make_shared<UavWorld>(
       ToScenario(config.scenario()),
-      UavOptions{{agent.safe_action_mask(), agent.coverage_mask()}, {agent.sensor_geometry()}});
+      UavOptions{{agent.safe_action_mask(), agent.coverage_mask()}, {agent.sensor_geometry(), agent.has_set_network()}});
 }
 
 }  // namespace fresco
