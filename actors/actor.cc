@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/identifier.h"
 #include "msgs/protocol_times.h"
+#include "nn/mlp.h"
 
 namespace fresco {
 namespace {

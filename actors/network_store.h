@@ -12,7 +12,7 @@
 
 #include "msgs/protocol_times.h"
 #include "msgs/weights_codec.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 
 namespace fresco {
 

@@ -35,7 +35,7 @@ ServedRun::ServedRun(Experiment experiment, RunIdentity identity, int capacity, 
       identity_(identity),
       capacity_(capacity),
       send_(std::move(send)),
-      store_(experiment_.network_shape().parameter_count()),
+      store_(experiment_.network()->parameter_count()),
       flyer_(experiment_, capacity) {}
 
 bool ServedRun::Hear(int64_t utime, int64_t now_us) {
@@ -206,7 +206,7 @@ std::string ServedRun::StateText(int64_t now_us) const {
 
 MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
   const World& world = experiment.world();
-  const int64_t parameters = experiment.network_shape().parameter_count();
+  const int64_t parameters = experiment.network()->parameter_count();
   const int64_t orders = MaximumOrdersInFlight(experiment.schedule());
   const VersionsInFlight versions = MostVersionsInFlight(experiment);
   const int64_t wanted = std::min(orders, versions.current) + std::min(orders, versions.target);
@@ -216,7 +216,8 @@ MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
           1,
           {{"run.environments_per_actor", "its environments",
             Flyer::BytesFor(experiment, capacity, std::min<int64_t>(capacity, orders))},
-           {"agent.hidden_layers", "the networks that it holds", NetworkStore::BytesFor(parameters, wanted)},
+           {experiment.network_field(), "the networks that it holds",
+            NetworkStore::BytesFor(parameters, wanted)},
            {"schedule.window", "the episodes of the orders in flight", orders * of_order},
            {"world", "the world", world.bytes()},
            {"run.actors", "the program", kProgramBytes}}};

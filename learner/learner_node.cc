@@ -10,6 +10,7 @@
 #include "msgs/protocol_times.h"
 #include "msgs/world_messages.h"
 #include "msgs/worlds.h"
+#include "nn/mlp.h"
 
 namespace fresco {
 namespace {

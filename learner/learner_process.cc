@@ -13,6 +13,7 @@
 #include "core/signals.h"
 #include "msgs/protocol_times.h"
 #include "msgs/versions_in_flight.h"
+#include "nn/mlp.h"
 #include "storage/checkpoint_file.h"
 #include "training/dqn.h"
 #include "training/ledger.h"
@@ -238,26 +239,26 @@ MemoryNeed LearnerMemory(const Experiment& experiment) {
   constexpr int64_t kMega = 1'000'000;
   constexpr int64_t kStored = 2;  // the best and the final network, while their files are written
   const World& world = experiment.world();
-  const MlpShape shape = experiment.network_shape();
+  const Network& network = *experiment.network();
   const proto::Agent& agent = experiment.agent();
   const proto::Run& run = experiment.run();
-  const int64_t parameters = shape.parameter_count();
-  const int64_t network = parameters * static_cast<int64_t>(sizeof(Vector::Scalar));
+  const int64_t parameters = network.parameter_count();
+  const int64_t network_bytes = parameters * static_cast<int64_t>(sizeof(Vector::Scalar));
   const int64_t versions = MostVersionsInFlight(experiment).both();
   const int64_t checkpoint = CheckpointBytes(parameters, 0, 0);
   const int64_t episodes = EpisodeHistory::BytesFor(world, agent.replay_capacity());
   return {"learner",
           1,
           {{"agent.replay_capacity", "the replay memory",
-            ReplayMemory::BytesFor(shape.inputs(), shape.outputs(), agent.replay_capacity()) + episodes +
+            ReplayMemory::BytesFor(network.inputs(), network.outputs(), agent.replay_capacity()) + episodes +
                 CheckpointBytes(0, 0, CheckpointedEpisodeBytes(world, agent.replay_capacity()))},
            {"agent.batch_size", "a batch and the units' outputs for it",
-            MiniBatch::BytesFor(shape.inputs(), shape.outputs(), agent.batch_size()) +
-                Dqn::BatchBytes(shape, agent.batch_size(), LearnerThreads(run))},
-           {"agent.hidden_layers", "the networks, Adam's moments and their checkpoint",
-            Dqn::ParameterBytes(shape) + kStored * network + checkpoint},
+            MiniBatch::BytesFor(network.inputs(), network.outputs(), agent.batch_size()) +
+                Dqn::BatchBytes(network, agent.batch_size(), LearnerThreads(run))},
+           {experiment.network_field(), "the networks, Adam's moments and their checkpoint",
+            Dqn::ParameterBytes(network) + kStored * network_bytes + checkpoint},
            {"schedule.window", "the versions of the networks that orders in flight can name",
-            versions * (network + WeightPublisher::BytesPerVersion(parameters)) +
+            versions * (network_bytes + WeightPublisher::BytesPerVersion(parameters)) +
                 CheckpointBytes(parameters, versions, 0) - checkpoint},
            {"schedule.window", "the episodes of the orders in flight",
             Ledger::BytesFor(world, MaximumOrdersInFlight(experiment.schedule()))},

@@ -4,17 +4,18 @@
 
 #include "core/identifier.h"
 #include "msgs/protocol_times.h"
+#include "nn/mlp.h"
 
 namespace fresco {
 
 RunAnnouncer::RunAnnouncer(const Experiment& experiment, int64_t run_id)
     : run_id_(run_id), config_text_(experiment.Text()) {
-  const MlpShape shape = experiment.network_shape();
+  const Network& network = *experiment.network();
   announcement_.protocol_version = kProtocolVersion;
   announcement_.arithmetic_fingerprint = ArithmeticFingerprint();
-  announcement_.inputs = shape.inputs();
-  announcement_.outputs = shape.outputs();
-  announcement_.parameters = static_cast<int32_t>(shape.parameter_count());
+  announcement_.inputs = network.inputs();
+  announcement_.outputs = network.outputs();
+  announcement_.parameters = static_cast<int32_t>(network.parameter_count());
   announcement_.values_per_chunk = kValuesPerChunk;
 }
 

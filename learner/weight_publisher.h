@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "msgs/weights_codec.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 
 namespace fresco {
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 #include "core/bytes.h"
 #include "core/error.h"
@@ -13,16 +12,40 @@
 #include "msgs/channels.h"
 #include "msgs/config_reflection.h"
 #include "msgs/worlds.h"
+#include "nn/mlp.h"
+#include "nn/set_network.h"
 
 namespace fresco {
 namespace {
 
+using Layers = google::protobuf::RepeatedField<int32_t>;
+
+void FillLayers(Layers& layers, std::initializer_list<int32_t> units) {
+  if (layers.empty()) {
+    layers.Add(units.begin(), units.end());
+  }
+}
+
+/// Throws UsageError if the agent has two networks.
+void FillNetwork(proto::Agent& agent) {
+  if (!agent.has_set_network()) {
+    FillLayers(*agent.mutable_hidden_layers(), {200, 256});
+    return;
+  }
+  if (!agent.hidden_layers().empty()) {
+    throw UsageError(
+        fmt::format("agent.hidden_layers ({} given) and agent.set_network contradict each other; "
+                    "allowed: one of the two",
+                    agent.hidden_layers_size()));
+  }
+  FillLayers(*agent.mutable_set_network()->mutable_encoder_layers(), {64, 64});
+  FillLayers(*agent.mutable_set_network()->mutable_trunk_layers(), {128, 128});
+  FillLayers(*agent.mutable_set_network()->mutable_head_layers(), {64});
+}
+
 void FillAgentAndSchedule(proto::ExperimentConfig& config) {
   proto::Agent& agent = *config.mutable_agent();
-  if (agent.hidden_layers().empty()) {
-    agent.add_hidden_layers(200);
-    agent.add_hidden_layers(256);
-  }
+  FillNetwork(agent);
   if (agent.learning_rate_case() == proto::Agent::LEARNING_RATE_NOT_SET) {
     agent.mutable_exponential();
   }
@@ -34,9 +57,32 @@ void FillAgentAndSchedule(proto::ExperimentConfig& config) {
   config.mutable_run();
 }
 
-void CheckBatch(const char* field, int64_t columns, const MlpShape& shape) {
-  const std::vector<int>& sizes = shape.layer_sizes();
-  const int64_t units = std::accumulate(sizes.begin(), sizes.end(), int64_t{0});
+std::vector<int> CheckedLayers(const char* field, const Layers& layers) {
+  if (layers.size() > kMaximumHiddenLayers) {
+    throw UsageError(
+        fmt::format("{}: {} layers; allowed: at most {}", field, layers.size(), kMaximumHiddenLayers));
+  }
+  return {layers.begin(), layers.end()};
+}
+
+std::shared_ptr<const Network> MakeNetwork(const proto::Agent& agent, const World& world) {
+  if (agent.has_set_network()) {
+    const ObservationSets& sets = *world.description().sets;
+    const proto::SetNetwork& network = agent.set_network();
+    return std::make_shared<SetNetwork>(
+        SetShape{sets.own_inputs, sets.items, sets.item_inputs, sets.groups,
+                 CheckedLayers("agent.set_network.encoder_layers", network.encoder_layers()),
+                 CheckedLayers("agent.set_network.trunk_layers", network.trunk_layers()),
+                 CheckedLayers("agent.set_network.head_layers", network.head_layers())});
+  }
+  std::vector<int> sizes = CheckedLayers("agent.hidden_layers", agent.hidden_layers());
+  sizes.insert(sizes.begin(), world.observation_size());
+  sizes.push_back(world.actions());
+  return std::make_shared<Mlp>(MlpShape(std::move(sizes)));
+}
+
+void CheckBatch(const char* field, int64_t columns, const Network& network) {
+  const int64_t units = network.units();
   if (columns * units > kMaximumActivations) {
     throw UsageError(fmt::format("{}: {} columns of {} units are too many; allowed: a product of at most {}",
                                  field, columns, units, kMaximumActivations));
@@ -44,18 +90,13 @@ void CheckBatch(const char* field, int64_t columns, const MlpShape& shape) {
 }
 
 void CheckNetwork(const Experiment& experiment) {
-  const int layers = experiment.agent().hidden_layers_size();
-  if (layers > kMaximumHiddenLayers) {
-    throw UsageError(
-        fmt::format("agent.hidden_layers: {} layers; allowed: at most {}", layers, kMaximumHiddenLayers));
+  const Network& network = *experiment.network();
+  if (network.parameter_count() > kMaximumParameters) {
+    throw UsageError(fmt::format("{}: {} parameters of the network; allowed: at most {}",
+                                 experiment.network_field(), network.parameter_count(), kMaximumParameters));
   }
-  const MlpShape shape = experiment.network_shape();
-  if (shape.parameter_count() > kMaximumParameters) {
-    throw UsageError(fmt::format("agent.hidden_layers: {} parameters of the network; allowed: at most {}",
-                                 shape.parameter_count(), kMaximumParameters));
-  }
-  CheckBatch("agent.batch_size", experiment.agent().batch_size(), shape);
-  CheckBatch("run.environments_per_actor", experiment.run().environments_per_actor(), shape);
+  CheckBatch("agent.batch_size", experiment.agent().batch_size(), network);
+  CheckBatch("run.environments_per_actor", experiment.run().environments_per_actor(), network);
 }
 
 /// Calls the function. An error that it throws becomes a UsageError that names the origin.
@@ -123,8 +164,10 @@ Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& or
   Experiment experiment;
   proto::ExperimentConfig& config = experiment.config_;
   config = std::move(given);
-  WithOrigin(origin, [&] { CompleteWorld(config); });
-  FillAgentAndSchedule(config);
+  WithOrigin(origin, [&] {
+    CompleteWorld(config);
+    FillAgentAndSchedule(config);
+  });
   FillDefaults(config);
   CheckRanges(config, origin);
   WithOrigin(origin, [&] {
@@ -133,6 +176,7 @@ Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& or
     if (!config.agent().has_discount()) {
       config.mutable_agent()->set_discount(experiment.world().description().discount);
     }
+    experiment.network_ = MakeNetwork(config.agent(), experiment.world());
     CheckNetwork(experiment);
   });
   const std::string canonical = experiment.CanonicalText();
@@ -142,13 +186,6 @@ Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& or
 
 Experiment Experiment::Load(const std::string& path, const Settings& settings) {
   return Parse(ReadFile(path), path, settings);
-}
-
-MlpShape Experiment::network_shape() const {
-  std::vector<int> sizes = {world().observation_size()};
-  sizes.insert(sizes.end(), agent().hidden_layers().begin(), agent().hidden_layers().end());
-  sizes.push_back(world().actions());
-  return MlpShape(sizes);
 }
 
 std::string Experiment::Text() const {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "msgs/proto/experiment.pb.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 #include "worlds/world.h"
 
 namespace fresco {
@@ -52,8 +52,12 @@ class Experiment {
   /// The world. It lives as long as this object or a copy of it.
   const World& world() const { return *world_; }
 
-  /// The layer sizes of this experiment's network: from an observation of the world to its actions.
-  MlpShape network_shape() const;
+  /// The network of this experiment: from an observation of the world to values of its actions. Never null.
+  const std::shared_ptr<const Network>& network() const { return network_; }
+  /// The field of the configuration that gives the network its size, for errors.
+  const char* network_field() const {
+    return agent().has_set_network() ? "agent.set_network" : "agent.hidden_layers";
+  }
 
   /// The complete configuration in text format, with every default written out.
   std::string Text() const;
@@ -67,6 +71,7 @@ class Experiment {
  private:
   proto::ExperimentConfig config_;
   std::shared_ptr<const World> world_;
+  std::shared_ptr<const Network> network_;
   uint32_t hash_ = 0;
 };
 

@@ -98,6 +98,12 @@ void CheckCapabilities(const Config& config, const World& world) {
                     "decides what an episode earns",
                     name));
   }
+  if (config.agent().has_set_network() && !world.description().sets) {
+    throw UsageError(
+        fmt::format("agent.set_network: set; allowed: omitted, since the world {} has no observation that is "
+                    "made of a set of items",
+                    name));
+  }
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "nn/arithmetic_kernels.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 
 namespace fresco {
 

@@ -16,10 +16,10 @@ enum class Finish : uint8_t {
   kGate,  ///< an entry becomes 0 if `gate` is not above 0 in its place
 };
 
-/// result = finish(bias + a b). Entry (i, j) begins as bias[i], or 0 without a bias. Then, for k = 0, 1, ...,
-/// it becomes fma(a(i, k), b(k, j), entry): a multiplication and an addition that are rounded together, once.
-/// Matrices are column-major; a stride is the distance of two neighbouring columns, in entries. The result
-/// must not overlap with the rest.
+/// result = finish(bias + a b). Entry (i, j) begins as bias(i, j), or 0 without a bias. Then, for k = 0, 1,
+/// ..., it becomes fma(a(i, k), b(k, j), entry): a multiplication and an addition that are rounded together,
+/// once. Matrices are column-major; a stride is the distance of two neighbouring columns, in entries. The
+/// result must not overlap with the rest, but it may be the bias itself, which continues a product.
 struct Product {
   int rows = 0;
   int columns = 0;
@@ -29,7 +29,8 @@ struct Product {
   const float* b = nullptr;  ///< b(k, j) is b[k * b_row_stride + j * b_stride]; one of the two is 1
   int64_t b_row_stride = 1;
   int64_t b_stride = 0;
-  const float* bias = nullptr;  ///< [rows], or null
+  const float* bias = nullptr;  ///< [rows x columns], or null
+  int64_t bias_stride = 0;      ///< 0: all columns have the same bias
   float* result = nullptr;      ///< [rows x columns]
   int64_t result_stride = 0;
   Finish finish = Finish::kNothing;

@@ -40,6 +40,15 @@ inline __attribute__((always_inline)) void MultiplyTile(const Product& product, 
       sums[height][i] = first;
     }
   }
+  if (product.bias_stride != 0) {
+#pragma GCC unroll 8
+    for (int i = 0; i < kColumns; ++i) {
+#pragma GCC unroll 8
+      for (int height = 0; height < kHeight; ++height) {
+        sums[height][i] = load(product.bias + (column + i) * product.bias_stride + row, height);
+      }
+    }
+  }
   const float* a = product.a + row;
   const float* b = product.b + column * product.b_stride;
   // One of the strides is 1, which the compiler shall know.

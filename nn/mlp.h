@@ -1,30 +1,16 @@
-// The multilayer perceptron: fully connected layers with ReLU between them and a linear output, in single
-// precision. All parameters are one flat vector, which the optimiser, the target network, the messages and
-// the checkpoints share as their format. No I/O, no clock, no hidden randomness. Every number is defined to
-// the bit (nn/arithmetic_kernels.h), so every processor gives the same ones. MlpShape and Mlp are immutable,
-// so any number of threads may share them.
-//
-// A batch is a matrix in which each column is one observation. The output of an observation has the same bits
-// in every batch, whatever the batch's width, the observation's column and the other columns.
+// The multilayer perceptron: one chain of fully connected layers with ReLU between them and a linear output.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include "nn/network.h"
 
 namespace fresco {
 
-using Matrix = Eigen::MatrixXf;  ///< column-major, [units x batch]
-using Vector = Eigen::VectorXf;
-
-/// The values of a vector, as long as it lives and keeps its size.
-std::span<const float> Values(const Vector& vector);
-std::span<float> Values(Vector& vector);
-
-/// The layer sizes of a network, and the position of each layer's parameters in the flat vector. A layer has
-/// its weights [outputs x inputs], column by column, then its biases [outputs].
+/// The layer sizes of a network, and the position of each layer's parameters in the flat vector.
 class MlpShape {
  public:
   /// `layer_sizes`: number of inputs, units of each hidden layer, number of outputs. CHECKs that there are at
@@ -49,50 +35,13 @@ class MlpShape {
   std::vector<int64_t> offsets_;  // where each layer's parameters begin, and where the last one's end
 };
 
-/// Returns the initial parameters, which are version 0 of both networks: He-uniform weights, U(-sqrt(6 /
-/// inputs), sqrt(6 / inputs)), and zero biases. They depend on the shape and the seed only (core/random.h).
-Vector InitialParameters(const MlpShape& shape, uint64_t seed);
-
-/// Columns of a batch, from `first` to before `end`.
-struct ColumnRange {
-  int first = 0;
-  int end = 0;
-};
-
-/// A contiguous part of the parameters: the weights from some inputs of one layer, with the layer's biases if
-/// these are its last inputs.
-struct ParameterPart {
-  int layer = 0;
-  int first_input = 0;
-  int end_input = 0;
-  int64_t first = 0;  ///< in the flat vector
-  int64_t end = 0;
-  int64_t size() const { return end - first; }
-};
-
-/// d loss / d output of a batch whose loss depends on one output in each column.
-struct OutputGradient {
-  std::span<const int16_t> units;  ///< which output, by column
-  std::span<const float> values;   ///< d loss / d this output, by column
-};
-
-/// Holds the activations of a forward pass and the gradients of a backward pass, so that passes do not
-/// allocate. Threads may share one if each has columns and parts of its own.
-class MlpWorkspace {
+class MlpWorkspace : public NetworkWorkspace {
  public:
-  enum class Passes { kForward, kForwardAndBackward };
-
   /// `batch_capacity` (>= 1): the largest batch. `passes`: which ones it is for.
   MlpWorkspace(const MlpShape& shape, int batch_capacity, Passes passes = Passes::kForward);
 
-  /// The memory of a workspace, bytes.
-  static int64_t BytesFor(const MlpShape& shape, int batch_capacity, Passes passes);
-
-  /// The observations, which the caller writes before Forward: [inputs x batch_capacity].
-  Matrix& input() { return activations_.front(); }
-
-  /// The outputs of Forward: [outputs x batch_capacity]. Only the columns that it computed have a meaning.
-  const Matrix& output() const { return activations_.back(); }
+  Matrix& input() override { return activations_.front(); }
+  const Matrix& output() const override { return activations_.back(); }
 
  private:
   friend class Mlp;
@@ -104,43 +53,36 @@ class MlpWorkspace {
   Matrix transposed_gradient_;      // of the last layer's weights
 };
 
-/// Computes outputs and gradients of a network of one shape. It holds no parameters.
-///
-/// A backward pass has two stages. In the first one every column can be computed by itself, in the second one
-/// every part of the parameters. So threads can share both; neither their number nor the ranges that a caller
-/// chooses change a bit.
-class Mlp {
+/// Network (nn/network.h) describes the functions.
+class Mlp : public Network {
  public:
   explicit Mlp(MlpShape shape);
   const MlpShape& shape() const { return shape_; }
 
-  /// Computes the outputs of some columns of the workspace's input. CHECKs that `parameters` has
-  /// parameter_count() entries and that the workspace has the columns.
-  void Forward(std::span<const float> parameters, ColumnRange columns, MlpWorkspace& workspace) const;
-
-  /// The parts of the parameters, which together are all of them, in ascending order.
-  const std::vector<ParameterPart>& parts() const { return parts_; }
-  /// The most parameters of a part.
-  static int64_t LargestPart(const MlpShape& shape);
-
-  /// Prepares the backward pass: call it for every part whose parameters have changed.
-  void Transpose(std::span<const float> parameters, const ParameterPart& part, MlpWorkspace& workspace) const;
-
-  /// The first stage, after Forward and Transpose: computes d loss / d hidden units for some columns.
+  int inputs() const override { return shape_.inputs(); }
+  int outputs() const override { return shape_.outputs(); }
+  std::vector<int> layer_sizes() const override { return shape_.layer_sizes(); }
+  int64_t units() const override;
+  std::unique_ptr<NetworkWorkspace> NewWorkspace(int batch_capacity,
+                                                 NetworkWorkspace::Passes passes) const override;
+  int64_t WorkspaceBytes(int batch_capacity, NetworkWorkspace::Passes passes) const override;
+  void Forward(std::span<const float> parameters, ColumnRange columns,
+               NetworkWorkspace& workspace) const override;
+  /// Computes all outputs.
+  void ForwardUnits(std::span<const float> parameters, std::span<const int16_t> units, ColumnRange columns,
+                    NetworkWorkspace& workspace) const override;
+  void Transpose(std::span<const float> parameters, const ParameterPart& part,
+                 NetworkWorkspace& workspace) const override;
   void BackwardColumns(const OutputGradient& output_gradient, ColumnRange columns,
-                       MlpWorkspace& workspace) const;
-
-  /// The second stage, after the first one of all columns of a batch: computes d loss / d parameters of a
-  /// part, `gradient` (part.size() entries).
+                       NetworkWorkspace& workspace) const override;
   void BackwardPart(const OutputGradient& output_gradient, int batch, const ParameterPart& part,
-                    MlpWorkspace& workspace, std::span<float> gradient) const;
+                    NetworkWorkspace& workspace, std::span<float> gradient) const override;
 
  private:
   void LastLayerGradient(const OutputGradient& output_gradient, int batch, const ParameterPart& part,
                          MlpWorkspace& workspace, std::span<float> gradient) const;
 
   MlpShape shape_;
-  std::vector<ParameterPart> parts_;
 };
 
 /// Returns the CRC-32C of the outputs of a fixed network on fixed observations. Two programs with the same

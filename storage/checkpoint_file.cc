@@ -215,7 +215,7 @@ void WriteTrainingState(const TrainingState& from, bool repeatable, proto::Check
 /// `origin` and the field if a size is wrong.
 TrainingState ReadTrainingState(const proto::Checkpoint& from, const Experiment& experiment,
                                 const std::string& origin) {
-  const VectorReader reader(experiment.network_shape().parameter_count(), origin);
+  const VectorReader reader(experiment.network()->parameter_count(), origin);
   TrainingState to;
   to.progress = FromProto(from.progress());
   for (const proto::CheckpointOrder& order : from.orders()) {

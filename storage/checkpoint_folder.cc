@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "nn/mlp.h"
 #include "storage/run_folder.h"
 #include "storage/summary.h"
 

@@ -17,16 +17,16 @@ namespace {
 
 constexpr char kNetworkFormat[] = "fresco-network-1";
 
-Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const std::string& origin) {
-  const size_t expected = static_cast<size_t>(shape.parameter_count()) * sizeof(float);
-  Expect(std::equal(file.layer_sizes().begin(), file.layer_sizes().end(), shape.layer_sizes().begin(),
-                    shape.layer_sizes().end()),
-         origin, "its layer sizes contradict its configuration");
+Vector ParametersOf(const proto::NetworkFile& file, const Network& network, const std::string& origin) {
+  const size_t expected = static_cast<size_t>(network.parameter_count()) * sizeof(float);
+  const std::vector<int> sizes = network.layer_sizes();
+  Expect(std::equal(file.layer_sizes().begin(), file.layer_sizes().end(), sizes.begin(), sizes.end()), origin,
+         "its layer sizes contradict its configuration");
   Expect(file.parameters().size() == expected, origin,
          fmt::format("expected {} bytes of parameters, found {}", expected, file.parameters().size()));
   Expect(Crc32c(std::as_bytes(std::span(file.parameters()))) == file.crc32c(), origin,
          "the CRC of its parameters is wrong: the file is damaged");
-  Vector parameters(shape.parameter_count());
+  Vector parameters(network.parameter_count());
   std::memcpy(parameters.data(), file.parameters().data(), expected);
   return parameters;
 }
@@ -36,8 +36,7 @@ Vector ParametersOf(const proto::NetworkFile& file, const MlpShape& shape, const
 std::string SerializeNetworkFile(const StoredNetwork& network) {
   proto::NetworkFile file;
   file.set_format(kNetworkFormat);
-  const MlpShape shape = network.experiment.network_shape();
-  for (const int size : shape.layer_sizes()) {
+  for (const int size : network.experiment.network()->layer_sizes()) {
     file.add_layer_sizes(size);
   }
   const std::span<const float> values = Values(network.parameters);
@@ -61,8 +60,7 @@ StoredNetwork ParseNetworkFile(std::string_view content, const std::string& orig
   Expect(file.format() == kNetworkFormat, origin,
          fmt::format("expected format {}, found {}", kNetworkFormat, file.format()));
   Experiment experiment = Experiment::Parse(file.config_text(), origin + " (its configuration)");
-  const MlpShape shape = experiment.network_shape();
-  Vector parameters = ParametersOf(file, shape, origin);
+  Vector parameters = ParametersOf(file, *experiment.network(), origin);
   return {std::move(experiment), file.version(), file.updates(), std::move(parameters)};
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "msgs/experiment.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 
 namespace fresco {
 
@@ -17,7 +17,7 @@ struct StoredNetwork {
   Experiment experiment;
   int64_t version = 0;  ///< its number
   int64_t updates = 0;  ///< updates made when the version was made
-  Vector parameters;    ///< as many as experiment.network_shape() has
+  Vector parameters;    ///< as many as experiment.network() has
 };
 
 /// Returns the bytes of a network file.

@@ -115,7 +115,7 @@ Experiment ExperimentOfNetwork(const PolicyChoice& choice, const StoredNetwork& 
     return Experiment::Parse(network.experiment.Text(), choice.policy, ParseSettings(choice.settings));
   }
   Experiment given = GivenExperiment(choice);
-  if (given.network_shape().layer_sizes() != network.experiment.network_shape().layer_sizes()) {
+  if (given.network()->layer_sizes() != network.experiment.network()->layer_sizes()) {
     throw UsageError(fmt::format("{}: its network (inputs, hidden layers, actions) is not that of {}",
                                  choice.config, choice.policy));
   }

@@ -12,6 +12,7 @@
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
 #include "nn/arithmetic_option.h"
+#include "nn/mlp.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
 #include "storage/run_folder.h"

@@ -57,45 +57,46 @@ int GreedyAction(const Matrix& values, int column, std::span<const uint8_t> mask
   return *best;
 }
 
-Dqn::Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options, int threads)
-    : mlp_(shape),
+Dqn::Dqn(std::shared_ptr<const Network> network, const Vector& initial, DqnOptions options, int threads)
+    : network_(std::move(network)),
       options_(options),
       current_(initial),
       target_(initial),
-      adam_(shape.parameter_count(), options.adam),
-      workspace_(shape, options.batch_size, MlpWorkspace::Passes::kForwardAndBackward),
+      adam_(network_->parameter_count(), options.adam),
+      workspace_(network_->NewWorkspace(options.batch_size, NetworkWorkspace::Passes::kForwardAndBackward)),
       targets_(static_cast<size_t>(options.batch_size)),
       errors_(targets_.size()),
       output_gradients_(targets_.size()),
       choices_(targets_.size()),
       team_(threads) {
   for (int thread = 0; thread < threads; ++thread) {
-    scratches_.push_back({MlpWorkspace(shape, MostColumnsOfJob(options.batch_size, threads)),
-                          Vector(Mlp::LargestPart(shape))});
+    scratches_.push_back({network_->NewWorkspace(MostColumnsOfJob(options.batch_size, threads),
+                                                 NetworkWorkspace::Passes::kForward),
+                          Vector(network_->LargestPart())});
   }
   TransposeAll();
 }
 
 void Dqn::TransposeAll() {
-  for (const ParameterPart& part : mlp_.parts()) {
-    mlp_.Transpose(Values(current_), part, workspace_);
+  for (const ParameterPart& part : network_->parts()) {
+    network_->Transpose(Values(current_), part, *workspace_);
   }
 }
 
-int64_t Dqn::ParameterBytes(const MlpShape& shape) {
+int64_t Dqn::ParameterBytes(const Network& network) {
   constexpr int64_t kVectors = 2;  // current, target
-  return kVectors * shape.parameter_count() * static_cast<int64_t>(sizeof(Vector::Scalar)) +
-         Adam::BytesFor(shape.parameter_count());
+  return kVectors * network.parameter_count() * static_cast<int64_t>(sizeof(Vector::Scalar)) +
+         Adam::BytesFor(network.parameter_count());
 }
 
-int64_t Dqn::BatchBytes(const MlpShape& shape, int batch_size, int threads) {
+int64_t Dqn::BatchBytes(const Network& network, int batch_size, int threads) {
   const auto of_column = static_cast<int64_t>(
       sizeof(decltype(targets_)::value_type) + sizeof(decltype(errors_)::value_type) +
       sizeof(decltype(output_gradients_)::value_type) + sizeof(decltype(choices_)::value_type));
-  return MlpWorkspace::BytesFor(shape, batch_size, MlpWorkspace::Passes::kForwardAndBackward) +
-         threads * (MlpWorkspace::BytesFor(shape, MostColumnsOfJob(batch_size, threads),
-                                           MlpWorkspace::Passes::kForward) +
-                    Mlp::LargestPart(shape) * static_cast<int64_t>(sizeof(Vector::Scalar))) +
+  return network.WorkspaceBytes(batch_size, NetworkWorkspace::Passes::kForwardAndBackward) +
+         threads * (network.WorkspaceBytes(MostColumnsOfJob(batch_size, threads),
+                                           NetworkWorkspace::Passes::kForward) +
+                    network.LargestPart() * static_cast<int64_t>(sizeof(Vector::Scalar))) +
          batch_size * of_column;
 }
 
@@ -112,17 +113,17 @@ double Dqn::Update(const MiniBatch& batch, double learning_rate) {
   const int size = batch.size();
   const int jobs = ColumnJobs(size, team_.threads());
   team_.Run(jobs, [&](int job, int thread) {
-    ComputeColumns(batch, ColumnsOfJob(job, jobs, size), scratches_[static_cast<size_t>(thread)].next);
+    ComputeColumns(batch, ColumnsOfJob(job, jobs, size), *scratches_[static_cast<size_t>(thread)].next);
   });
   const OutputGradient output_gradient{batch.actions, output_gradients_};
   const AdamStep step = adam_.Begin(learning_rate);
-  team_.Run(static_cast<int>(mlp_.parts().size()), [&](int job, int thread) {
-    const ParameterPart& part = mlp_.parts()[static_cast<size_t>(job)];
+  team_.Run(static_cast<int>(network_->parts().size()), [&](int job, int thread) {
+    const ParameterPart& part = network_->parts()[static_cast<size_t>(job)];
     const auto count = static_cast<size_t>(part.size());
     const std::span gradient = Values(scratches_[static_cast<size_t>(thread)].gradient).first(count);
-    mlp_.BackwardPart(output_gradient, size, part, workspace_, gradient);
+    network_->BackwardPart(output_gradient, size, part, *workspace_, gradient);
     adam_.Step(step, part.first, gradient, Values(current_).subspan(static_cast<size_t>(part.first), count));
-    mlp_.Transpose(Values(current_), part, workspace_);
+    network_->Transpose(Values(current_), part, *workspace_);
   });
   double loss = 0;
   for (const float error : errors_) {
@@ -133,38 +134,36 @@ double Dqn::Update(const MiniBatch& batch, double learning_rate) {
 
 /// What an update does with columns of the batch up to the gradients of the hidden units. Every column is
 /// computed by itself.
-void Dqn::ComputeColumns(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace) {
+void Dqn::ComputeColumns(const MiniBatch& batch, ColumnRange columns, NetworkWorkspace& next_workspace) {
   ComputeTargets(batch, columns, next_workspace);
   const int count = columns.end - columns.first;
-  workspace_.input().middleCols(columns.first, count) = batch.observations.middleCols(columns.first, count);
-  mlp_.Forward(Values(current_), columns, workspace_);
+  workspace_->input().middleCols(columns.first, count) = batch.observations.middleCols(columns.first, count);
+  network_->ForwardUnits(Values(current_), batch.actions, columns, *workspace_);
   for (int column = columns.first; column < columns.end; ++column) {
     const auto i = static_cast<size_t>(column);
-    errors_[i] = workspace_.output()(batch.actions[i], column) - targets_[i];
+    errors_[i] = workspace_->output()(batch.actions[i], column) - targets_[i];
     output_gradients_[i] = 2.0f * errors_[i] / static_cast<float>(batch.size());
   }
-  mlp_.BackwardColumns({batch.actions, output_gradients_}, columns, workspace_);
+  network_->BackwardColumns({batch.actions, output_gradients_}, columns, *workspace_);
 }
 
-void Dqn::ComputeTargets(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace) {
+void Dqn::ComputeTargets(const MiniBatch& batch, ColumnRange columns, NetworkWorkspace& next_workspace) {
   const ColumnRange next_columns{0, columns.end - columns.first};
+  const auto choices =
+      std::span(choices_).subspan(static_cast<size_t>(columns.first), static_cast<size_t>(next_columns.end));
   next_workspace.input().leftCols(next_columns.end) =
       batch.next_observations.middleCols(columns.first, next_columns.end);
-  if (options_.double_dqn) {
-    mlp_.Forward(Values(current_), next_columns, next_workspace);
-    for (int column = 0; column < next_columns.end; ++column) {
-      choices_[static_cast<size_t>(columns.first + column)] =
-          GreedyAction(next_workspace.output(), column, batch.next_mask(columns.first + column));
-    }
-  }
-  mlp_.Forward(Values(target_), next_columns, next_workspace);
+  network_->Forward(Values(options_.double_dqn ? current_ : target_), next_columns, next_workspace);
   for (int column = 0; column < next_columns.end; ++column) {
-    const int of_batch = columns.first + column;
-    const auto i = static_cast<size_t>(of_batch);
-    const int choice = options_.double_dqn
-                           ? choices_[i]
-                           : GreedyAction(next_workspace.output(), column, batch.next_mask(of_batch));
-    const float next_value = next_workspace.output()(choice, column);
+    choices[static_cast<size_t>(column)] = static_cast<int16_t>(
+        GreedyAction(next_workspace.output(), column, batch.next_mask(columns.first + column)));
+  }
+  if (options_.double_dqn) {
+    network_->ForwardUnits(Values(target_), choices, next_columns, next_workspace);
+  }
+  for (int column = 0; column < next_columns.end; ++column) {
+    const auto i = static_cast<size_t>(columns.first + column);
+    const float next_value = next_workspace.output()(choices[static_cast<size_t>(column)], column);
     const float later = batch.terminal[i] != 0 ? 0.0f : options_.discount * next_value;
     targets_[i] = std::max(batch.rewards[i] + later, batch.least_values[i]);
   }

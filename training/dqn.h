@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/thread_team.h"
 #include "nn/adam.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 #include "training/replay_memory.h"
 
 namespace fresco {
@@ -31,14 +33,14 @@ struct DqnOptions {
 
 class Dqn {
  public:
-  /// Both networks begin as `initial`, which has shape.parameter_count() entries. `threads` (>= 1) share each
-  /// update; their number changes no bit.
-  Dqn(const MlpShape& shape, const Vector& initial, DqnOptions options, int threads = 1);
+  /// Both networks begin as `initial`, which has network->parameter_count() entries. `threads` (>= 1) share
+  /// each update; their number changes no bit.
+  Dqn(std::shared_ptr<const Network> network, const Vector& initial, DqnOptions options, int threads = 1);
 
   /// The memory of an object after its first update, bytes: for the networks, their gradient and Adam's
   /// moments, and for a batch.
-  static int64_t ParameterBytes(const MlpShape& shape);
-  static int64_t BatchBytes(const MlpShape& shape, int batch_size, int threads);
+  static int64_t ParameterBytes(const Network& network);
+  static int64_t BatchBytes(const Network& network, int batch_size, int threads);
 
   /// Makes one step of Adam on the loss L = mean (y - Q(s, a))^2 (eq. Loss-Func) of a batch of exactly
   /// options.batch_size transitions. The target y is r if the transition is terminal; otherwise it is r plus
@@ -58,25 +60,25 @@ class Dqn {
   void Restore(const Vector& current, const Vector& target, const Adam::State& adam);
 
  private:
-  void ComputeColumns(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace);
-  void ComputeTargets(const MiniBatch& batch, ColumnRange columns, MlpWorkspace& next_workspace);
+  void ComputeColumns(const MiniBatch& batch, ColumnRange columns, NetworkWorkspace& next_workspace);
+  void ComputeTargets(const MiniBatch& batch, ColumnRange columns, NetworkWorkspace& next_workspace);
   void TransposeAll();
 
-  Mlp mlp_;
+  std::shared_ptr<const Network> network_;
   DqnOptions options_;
   Vector current_;
   Vector target_;
   Adam adam_;
-  MlpWorkspace workspace_;
+  std::unique_ptr<NetworkWorkspace> workspace_;
   std::vector<float> targets_;           // y, by column
   std::vector<float> errors_;            // Q(s, a) - y, by column
   std::vector<float> output_gradients_;  // d L / d Q(s, a), by column
-  std::vector<int> choices_;  // actions that the current network chooses in s'; for Double DQN only
+  std::vector<int16_t> choices_;         // actions chosen in s', by column
   ThreadTeam team_;
   /// What one thread works with.
   struct Scratch {
-    MlpWorkspace next;  // for s', of the columns of a job
-    Vector gradient;    // of a part of the parameters
+    std::unique_ptr<NetworkWorkspace> next;  // for s', of the columns of a job
+    Vector gradient;                         // of a part of the parameters
   };
   std::vector<Scratch> scratches_;  // by thread
 };

@@ -10,21 +10,20 @@ namespace fresco {
 
 Flyer::Flyer(const Experiment& experiment, int capacity)
     : experiment_(experiment),
-      mlp_(experiment.network_shape()),
       double_dqn_(experiment.agent().double_dqn()),
       discount_(static_cast<float>(experiment.agent().discount())),
       excursion_share_(experiment.schedule().excursion_share()),
       capacity_(capacity),
-      current_workspace_(mlp_.shape(), capacity),
-      target_workspace_(mlp_.shape(), capacity) {}
+      current_workspace_(experiment.network()->NewWorkspace(capacity, NetworkWorkspace::Passes::kForward)),
+      target_workspace_(experiment.network()->NewWorkspace(capacity, NetworkWorkspace::Passes::kForward)) {}
 
 int64_t Flyer::BytesFor(const Experiment& experiment, int capacity, int64_t flights) {
   constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
   const World& world = experiment.world();
-  const MlpShape shape = experiment.network_shape();
   const int64_t of_flight =
       static_cast<int64_t>(sizeof(Flight)) + HeapBytes(world.actions()) + kGrowth * LongestResultBytes(world);
-  return 2 * MlpWorkspace::BytesFor(shape, capacity, MlpWorkspace::Passes::kForward) + flights * of_flight;
+  return 2 * experiment.network()->WorkspaceBytes(capacity, NetworkWorkspace::Passes::kForward) +
+         flights * of_flight;
 }
 
 bool Flyer::IsFlying(int64_t order_index) const {
@@ -102,18 +101,18 @@ void Flyer::Finish(Flight& flight, const std::function<void(const Order&, const 
 
 void Flyer::StepGroup(std::span<const std::unique_ptr<Flight>> group) {
   const auto batch = static_cast<int>(group.size());
-  Matrix& observations = current_workspace_.input();
+  Matrix& observations = current_workspace_->input();
   for (int column = 0; column < batch; ++column) {
     experiment_.world().Observe(
         group[static_cast<size_t>(column)]->recorder.state(),
         {observations.col(column).data(), static_cast<size_t>(experiment_.world().observation_size())});
   }
-  target_workspace_.input().leftCols(batch) = observations.leftCols(batch);
-  const auto forward = [&](const SharedParameters& parameters, MlpWorkspace& workspace) {
-    mlp_.Forward(Values(*parameters), {0, batch}, workspace);
+  target_workspace_->input().leftCols(batch) = observations.leftCols(batch);
+  const auto forward = [&](const SharedParameters& parameters, NetworkWorkspace& workspace) {
+    experiment_.network()->Forward(Values(*parameters), {0, batch}, workspace);
   };
-  forward(group.front()->current, current_workspace_);
-  forward(group.front()->target, target_workspace_);
+  forward(group.front()->current, *current_workspace_);
+  forward(group.front()->target, *target_workspace_);
   for (int column = 0; column < batch; ++column) {
     Flight& flight = *group[static_cast<size_t>(column)];
     FinishLastTransition(flight, column);
@@ -122,7 +121,7 @@ void Flyer::StepGroup(std::span<const std::unique_ptr<Flight>> group) {
       continue;
     }
     const int action = ChooseAction(flight, column);
-    Act(flight, action, current_workspace_.output()(action, column));
+    Act(flight, action, current_workspace_->output()(action, column));
   }
 }
 
@@ -131,15 +130,15 @@ void Flyer::FinishLastTransition(Flight& flight, int column) {
   if (rewards.empty()) {
     return;
   }
-  const Matrix& target_values = target_workspace_.output();
-  const Matrix& choosing = double_dqn_ ? current_workspace_.output() : target_values;
+  const Matrix& target_values = target_workspace_->output();
+  const Matrix& choosing = double_dqn_ ? current_workspace_->output() : target_values;
   const float next_value = target_values(GreedyAction(choosing, column, flight.recorder.mask()), column);
   flight.result.td_errors.back() = rewards.back() + discount_ * next_value - flight.chosen_value;
 }
 
 int Flyer::ChooseAction(Flight& flight, int column) const {
   const std::optional<int> exploring = Explore(flight, column);
-  return exploring ? *exploring : GreedyAction(current_workspace_.output(), column, flight.recorder.mask());
+  return exploring ? *exploring : GreedyAction(current_workspace_->output(), column, flight.recorder.mask());
 }
 
 /// Returns a random action, or one of an excursion: a straight way to a random place, with the best of the
@@ -165,7 +164,7 @@ std::optional<int> Flyer::Explore(Flight& flight, int column) const {
   }
   const ActionRange range = world.Towards(state, *flight.place);
   const std::optional<int> action =
-      BestAllowedAction(current_workspace_.output(), column, mask, range.first, range.end);
+      BestAllowedAction(current_workspace_->output(), column, mask, range.first, range.end);
   if (!action) {
     flight.place.reset();
   }

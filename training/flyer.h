@@ -14,7 +14,7 @@
 #include "core/random.h"
 #include "msgs/experiment.h"
 #include "msgs/order.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 #include "training/dqn.h"
 #include "worlds/episode.h"
 
@@ -70,13 +70,12 @@ class Flyer {
   void Act(Flight& flight, int action, float value);
 
   Experiment experiment_;
-  Mlp mlp_;
   bool double_dqn_;
   float discount_;
   double excursion_share_;
   int capacity_;
-  MlpWorkspace current_workspace_;
-  MlpWorkspace target_workspace_;
+  std::unique_ptr<NetworkWorkspace> current_workspace_;
+  std::unique_ptr<NetworkWorkspace> target_workspace_;
   std::vector<std::unique_ptr<Flight>> flights_;  // those of the same two versions are neighbours
   std::vector<std::unique_ptr<Flight>> free_flights_;
 };

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 #include "worlds/episode.h"
 
 namespace fresco {

@@ -10,7 +10,7 @@
 
 #include "msgs/weights_codec.h"
 #include "nn/adam.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
 #include "worlds/episode.h"
 
 namespace fresco {

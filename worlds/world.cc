@@ -22,6 +22,14 @@ bool HasName(const Quantity& quantity) {
   return IsName(quantity.name);
 }
 
+/// Whether the sizes are those of the observation and the actions.
+bool Fit(const ObservationSets& sets, const WorldDescription& description) {
+  return sets.own_inputs >= 1 && sets.items >= 1 && sets.item_inputs >= 1 && sets.groups >= 1 &&
+         description.observation_size == sets.own_inputs + int64_t{sets.items} * sets.item_inputs &&
+         description.actions.size() ==
+             static_cast<size_t>(sets.groups) * (static_cast<size_t>(sets.items) + 1);
+}
+
 }  // namespace
 
 std::string Title(const std::string& name) {
@@ -46,6 +54,7 @@ World::World(WorldDescription description) : description_(std::move(description)
   FRESCO_CHECK(IsName(description_.name) && IsName(description_.success));
   FRESCO_CHECK(std::all_of(description_.state.begin(), description_.state.end(), HasName));
   FRESCO_CHECK(std::all_of(description_.figures.begin(), description_.figures.end(), HasName));
+  FRESCO_CHECK(!description_.sets || Fit(*description_.sets, description_));
 }
 
 void World::Judge(const Episode& episode, std::span<double> figures) const {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,17 @@ struct ReferencePolicy {
   std::string title;
 };
 
+/// An observation that holds a set of alike items, such as sensors: `own_inputs` numbers of the agent itself,
+/// then `item_inputs` numbers of each item, item after item. The first number of an item is 1 if it is
+/// present and 0 if it is absent; an absent item influences nothing, and the mask forbids its actions. Action
+/// group * (items + 1) + k concerns no item if k is 0, otherwise item k - 1.
+struct ObservationSets {
+  int own_inputs = 0;   ///< >= 1
+  int items = 0;        ///< the most items, >= 1
+  int item_inputs = 0;  ///< >= 1
+  int groups = 0;       ///< of actions, e.g. moves, >= 1
+};
+
 /// What a world states about itself.
 struct WorldDescription {
   std::string name;                  ///< of the kind of world, e.g. "cartpole"
@@ -54,6 +66,8 @@ struct WorldDescription {
   std::vector<Quantity> figures;  ///< what an episode is judged by; the first one is its score
   bool less_is_better = false;    ///< of two scores
   std::string success;            ///< what an episode that succeeds did, e.g. "arrived"
+  /// Set if the observation is one for agent.set_network.
+  std::optional<ObservationSets> sets;
 };
 
 /// Limits of every world.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "nn/mlp.h"
 #include "tests/actors/actor_fixture.h"
 
 namespace fresco {

@@ -7,6 +7,7 @@
 
 #include "core/bytes.h"
 #include "nn/arithmetic.h"
+#include "nn/mlp.h"
 #include "tests/worlds/test_scenarios.h"
 #include "training/dqn.h"
 #include "worlds/acrobot/acrobot.h"
@@ -57,9 +58,10 @@ struct Experience {
 
 std::string NumbersOf(const World& world) {
   const Experience experience(world);
-  const MlpShape shape({world.description().observation_size, 40, 32, world.actions()});
-  Dqn dqn(shape, InitialParameters(shape, 1), {true, 0.99f, kBatchSize, {}}, 2);
-  MiniBatch batch(shape.inputs(), shape.outputs(), kBatchSize);
+  const auto network = std::make_shared<Mlp>(
+      MlpShape({world.description().observation_size, 40, 32, world.actions()}));
+  Dqn dqn(network, network->InitialParameters(1), {true, 0.99f, kBatchSize, {}}, 2);
+  MiniBatch batch(network->inputs(), network->outputs(), kBatchSize);
   for (uint32_t update = 0; update < kUpdates; ++update) {
     RandomStream stream(1, RandomPurpose::kReplaySampling, update, 0);
     experience.memory.Sample(stream, batch);

@@ -6,6 +6,7 @@
 //
 // message_bytes: what these messages take on the wire, without the headers of UDP and LCM.
 #include "msgs/ready_experiments.h"
+#include "nn/mlp.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/flying_actor.h"
 #include "tests/bench/subjects.h"
@@ -15,19 +16,18 @@ namespace {
 
 Results ActorBesideRoof(double seconds) {
   const Experiment experiment = Experiment::Load(ExperimentPath(kDefaultExperiment));
-  const MlpShape shape = experiment.network_shape();
+  const Network& network = *experiment.network();
   FlyingActor actor(experiment);
   const int width = experiment.run().environments_per_actor();
-  const Mlp mlp(shape);
-  MlpWorkspace current(shape, width);
-  MlpWorkspace target(shape, width);
-  current.input().setRandom();
-  target.input() = current.input();
+  const auto current = network.NewWorkspace(width, NetworkWorkspace::Passes::kForward);
+  const auto target = network.NewWorkspace(width, NetworkWorkspace::Passes::kForward);
+  current->input().setRandom();
+  target->input() = current->input();
   constexpr int kPassesPerCall = 20;
   const Speeds speeds = Alternate([&] { return actor.Fly(); }, {[&] {
                                     for (int i = 0; i < kPassesPerCall; ++i) {
-                                      mlp.Forward(Values(actor.parameters()), {0, width}, current);
-                                      mlp.Forward(Values(actor.parameters()), {0, width}, target);
+                                      network.Forward(Values(actor.parameters()), {0, width}, *current);
+                                      network.Forward(Values(actor.parameters()), {0, width}, *target);
                                     }
                                     return static_cast<double>(kPassesPerCall * width);
                                   }},

@@ -42,6 +42,7 @@
 #include "msgs/order.h"
 #include "msgs/protocol_times.h"
 #include "msgs/ready_experiments.h"
+#include "nn/mlp.h"
 #include "tests/bench/forked.h"
 #include "tests/bench/stop.h"
 #include "tests/bench/subjects.h"
@@ -277,8 +278,8 @@ void AnswerOrders(const Experiment& experiment, size_t first, size_t actors, con
 double AnsweredPerSecond(size_t actors, double seconds) {
   const Experiment experiment =
       ExperimentWithoutUpdates({{"agent.hidden_layers", "8"}, {"schedule.window", "1024"}});
-  const auto network = std::make_shared<const Vector>(
-      InitialParameters(experiment.network_shape(), experiment.schedule().seed()));
+  const auto network =
+      std::make_shared<const Vector>(experiment.network()->InitialParameters(experiment.schedule().seed()));
   const Episode episode = FlyGreedily(experiment, 0, network);  // the field is the same in all of them
   const ForkedProcesses processes(std::min(actors, kActors),
                                   [&](size_t first) { AnswerOrders(experiment, first, actors, episode); });

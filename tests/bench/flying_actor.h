@@ -22,7 +22,7 @@ class FlyingActor {
   explicit FlyingActor(const Experiment& experiment)
       : experiment_(&experiment),
         parameters_(std::make_shared<const Vector>(
-            InitialParameters(experiment.network_shape(), experiment.schedule().seed()))),
+            experiment.network()->InitialParameters(experiment.schedule().seed()))),
         flyer_(experiment, experiment.run().environments_per_actor()) {}
 
   /// Flies until as many episodes have ended as there are environments; returns their transitions. Starts the

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "msgs/ready_experiments.h"
+#include "nn/mlp.h"
 #include "tests/bench/alternate.h"
 #include "tests/bench/flying_actor.h"
 #include "tests/bench/subjects.h"
@@ -27,7 +28,8 @@ struct UpdateSizes {
 Work Updates(const UpdateSizes& sizes) {
   DqnOptions options;
   options.batch_size = sizes.batch;
-  const auto loop = std::make_shared<UpdateLoop>(MlpShape(sizes.layers), options, 1, sizes.replay);
+  const auto loop =
+      std::make_shared<UpdateLoop>(std::make_shared<Mlp>(MlpShape(sizes.layers)), options, 1, sizes.replay);
   return [loop, batch = sizes.batch] {
     loop->Step();
     return static_cast<double>(batch);

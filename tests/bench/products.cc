@@ -3,6 +3,7 @@
 #include <cblas.h>
 #include <dnnl.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "core/error.h"
@@ -51,18 +52,44 @@ void MultiplyByOneDnn(Operands& o) {
                           p.rows) == dnnl_success);
 }
 
+/// Forward and backward products of layers that follow each other.
+void AddLayers(const std::vector<int>& sizes, int columns, int forward_passes, bool gradient_of_input,
+               std::vector<ProductShape>& products) {
+  for (size_t layer = 0; layer + 1 < sizes.size(); ++layer) {
+    const int inputs = sizes[layer];
+    const int outputs = sizes[layer + 1];
+    products.push_back({.rows = outputs, .columns = columns, .depth = inputs, .times = forward_passes});
+    products.push_back({.rows = outputs, .columns = inputs, .depth = columns, .transpose_b = true});
+    if (layer > 0 || gradient_of_input) {
+      products.push_back({.rows = inputs, .columns = columns, .depth = outputs, .transpose_a = true});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<ProductShape> ProductsOfUpdate(const MlpShape& shape, int batch, int forward_passes) {
   std::vector<ProductShape> products;
-  for (int layer = 0; layer < shape.layers(); ++layer) {
-    const int inputs = shape.layer_inputs(layer);
-    const int outputs = shape.layer_outputs(layer);
-    products.push_back({.rows = outputs, .columns = batch, .depth = inputs, .times = forward_passes});
-    products.push_back({.rows = outputs, .columns = inputs, .depth = batch, .transpose_b = true});
-    if (layer > 0) {
-      products.push_back({.rows = inputs, .columns = batch, .depth = outputs, .transpose_a = true});
-    }
+  AddLayers(shape.layer_sizes(), batch, forward_passes, false, products);
+  return products;
+}
+
+std::vector<ProductShape> ProductsOfUpdate(const SetShape& shape, int batch) {
+  const SetNetwork network(shape);
+  const std::vector<int> sizes = network.layer_sizes();
+  const auto trunk = std::find(sizes.begin(), sizes.end(), 0);
+  const auto head = std::find(trunk + 1, sizes.end(), 0);
+  const std::vector<int> head_sizes(head + 1, sizes.end());
+  const int items = batch * shape.items;
+  std::vector<ProductShape> products;
+  AddLayers({sizes.begin(), trunk}, items, 2, false, products);
+  AddLayers({trunk + 1, head}, batch, 2, true, products);
+  AddLayers(head_sizes, batch, 1, true, products);
+  const int hidden_units = shape.trunk_layers.back();
+  products.push_back({.rows = head_sizes[1], .columns = batch, .depth = hidden_units});
+  products.push_back({.rows = head_sizes[1], .columns = items, .depth = head_sizes[0] - hidden_units});
+  for (size_t layer = 1; layer + 1 < head_sizes.size(); ++layer) {
+    products.push_back({.rows = head_sizes[layer + 1], .columns = items, .depth = head_sizes[layer]});
   }
   return products;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nn/mlp.h"
+#include "nn/set_network.h"
 #include "tests/bench/alternate.h"
 
 namespace fresco {
@@ -22,6 +23,9 @@ struct ProductShape {
 
 /// Forward passes, gradients of the weights, gradients of the hidden layers' outputs.
 std::vector<ProductShape> ProductsOfUpdate(const MlpShape& shape, int batch, int forward_passes);
+
+/// The same of a network for sets, without Double DQN: the head computes all items in s', one item in s.
+std::vector<ProductShape> ProductsOfUpdate(const SetShape& shape, int batch);
 
 inline constexpr int kProductLibraries = 3;
 /// Eigen, OpenBLAS, oneDNN, with the kernel that OpenBLAS chose.

@@ -70,7 +70,7 @@ Results Training(double seconds) {
   DqnOptions options;
   options.double_dqn = experiment.agent().double_dqn();
   options.batch_size = experiment.agent().batch_size();
-  UpdateLoop loop(experiment.network_shape(), options);
+  UpdateLoop loop(experiment.network(), options);
   const int episodes = std::max(kFewestEpisodes, static_cast<int>(kEpisodesPerSecond * seconds));
   const auto update = [&] {
     loop.Step();

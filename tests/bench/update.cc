@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "nn/mlp.h"
 #include "tests/bench/products.h"
 #include "tests/bench/pytorch.h"
 #include "tests/bench/subjects.h"
@@ -17,9 +18,8 @@
 namespace fresco {
 namespace {
 
-const MlpShape& PaperShape() {
-  static const MlpShape shape({7, 200, 256, 20});
-  return shape;
+std::shared_ptr<const Mlp> PaperNetwork() {
+  return std::make_shared<Mlp>(MlpShape({7, 200, 256, 20}));
 }
 
 DqnOptions OptionsWith(int batch, bool double_dqn) {
@@ -29,11 +29,11 @@ DqnOptions OptionsWith(int batch, bool double_dqn) {
   return options;
 }
 
-/// So many updates a second, beside the roof. Q(s, a) and the target network in s' take two forward passes;
-/// Double DQN adds the current network in s'.
-Results UpdateBesideRoof(const std::string& name, int batch, bool double_dqn, double seconds) {
-  UpdateLoop loop(PaperShape(), OptionsWith(batch, double_dqn));
-  const std::vector<ProductShape> products = ProductsOfUpdate(PaperShape(), batch, double_dqn ? 3 : 2);
+/// So many updates a second, beside the roof of these products.
+Results UpdateBesideRoof(const std::string& name, std::shared_ptr<const Network> network,
+                         const DqnOptions& options, const std::vector<ProductShape>& products,
+                         double seconds) {
+  UpdateLoop loop(std::move(network), options);
   std::vector<Work> works;
   for (const ProductShape& product : products) {
     for (const Work& work : ProductWorks(product)) {
@@ -63,6 +63,13 @@ Results UpdateBesideRoof(const std::string& name, int batch, bool double_dqn, do
   return {{MoreIsBetter(name, speeds.value, "updates/s", reference, 1 / roof_s)}, {}};
 }
 
+/// The UAV's network for sets, with ten sensors.
+Results UpdateOfSets(double seconds) {
+  const SetShape shape{6, 10, 7, 5, {64, 64}, {128, 128}, {64}};
+  return UpdateBesideRoof("update_sets", std::make_shared<SetNetwork>(shape), OptionsWith(200, false),
+                          ProductsOfUpdate(shape, 200), seconds);
+}
+
 Results UpdateBesidePyTorch(double seconds) {
   constexpr int kUpdatesPerRequest = 8;  // so that asking takes no time, and about one turn
   std::string reason;
@@ -77,7 +84,7 @@ Results UpdateBesidePyTorch(double seconds) {
       return static_cast<double>(kUpdatesPerRequest);
     });
   }
-  UpdateLoop loop(PaperShape(), OptionsWith(200, false));
+  UpdateLoop loop(PaperNetwork(), OptionsWith(200, false));
   const Speeds speeds = Alternate(
       [&] {
         for (int i = 0; i < kUpdatesPerRequest; ++i) {
@@ -95,8 +102,8 @@ Results UpdateBesidePyTorch(double seconds) {
 
 /// Two threads beside one.
 Results UpdateByThreads(double seconds) {
-  UpdateLoop one(PaperShape(), OptionsWith(200, false), 1);
-  UpdateLoop two(PaperShape(), OptionsWith(200, false), 2);
+  UpdateLoop one(PaperNetwork(), OptionsWith(200, false), 1);
+  UpdateLoop two(PaperNetwork(), OptionsWith(200, false), 2);
   const auto work = [](UpdateLoop& loop) {
     return [&loop] {
       loop.Step();
@@ -112,15 +119,17 @@ Results UpdateByThreads(double seconds) {
 }  // namespace
 
 std::vector<Subject> UpdateSubjects() {
+  // Q(s, a) and the target network in s' take two forward passes; Double DQN adds the current network in s'.
   const auto beside_roof = [](const std::string& name, int batch, bool double_dqn) {
-    return Subject{{name},
-                   [=](double seconds) { return UpdateBesideRoof(name, batch, double_dqn, seconds); }};
+    return Subject{{name}, [=](double seconds) {
+                     return UpdateBesideRoof(
+                         name, PaperNetwork(), OptionsWith(batch, double_dqn),
+                         ProductsOfUpdate(PaperNetwork()->shape(), batch, double_dqn ? 3 : 2), seconds);
+                   }};
   };
-  return {beside_roof("update_roof", 200, false),
-          beside_roof("update_roof_batch_64", 64, false),
-          beside_roof("update_double_dqn", 200, true),
-          {{"update_pytorch"}, UpdateBesidePyTorch},
-          {{"update_threads"}, UpdateByThreads}};
+  return {beside_roof("update_roof", 200, false),      beside_roof("update_roof_batch_64", 64, false),
+          beside_roof("update_double_dqn", 200, true), {{"update_sets"}, UpdateOfSets},
+          {{"update_pytorch"}, UpdateBesidePyTorch},   {{"update_threads"}, UpdateByThreads}};
 }
 
 }  // namespace fresco

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "training/dqn.h"
 #include "training/replay_memory.h"
@@ -11,8 +12,9 @@ namespace fresco {
 
 class UpdateLoop {
  public:
-  /// Fills a replay memory of so many random transitions. `shape` has at least 8 outputs.
-  UpdateLoop(const MlpShape& shape, const DqnOptions& options, int threads = 1, int transitions = 40'000);
+  /// Fills a replay memory of so many random transitions. `network` has at least 8 outputs.
+  UpdateLoop(std::shared_ptr<const Network> network, const DqnOptions& options, int threads = 1,
+             int transitions = 40'000);
 
   /// Makes one update.
   void Step();

@@ -34,9 +34,9 @@ void CheckEpisode(const World& world) {
 void CheckAccepted(const Experiment& experiment) {
   const World& world = experiment.world();
   CheckEpisode(world);
-  const MlpShape shape = experiment.network_shape();
-  FRESCO_CHECK(shape.outputs() == world.actions());
-  FRESCO_CHECK(shape.parameter_count() <= kMaximumParameters);
+  const Network& network = *experiment.network();
+  FRESCO_CHECK(network.outputs() == world.actions());
+  FRESCO_CHECK(network.parameter_count() <= kMaximumParameters);
   const Experiment again = Experiment::Parse(experiment.Text(), "its own text");
   FRESCO_CHECK(again.Text() == experiment.Text());
   FRESCO_CHECK(again.hash() == experiment.hash());

@@ -10,7 +10,7 @@ namespace {
 
 void CheckOne(std::string_view content) {
   const StoredNetwork network = ParseNetworkFile(content, "an input");
-  FRESCO_CHECK(network.parameters.size() == network.experiment.network_shape().parameter_count());
+  FRESCO_CHECK(network.parameters.size() == network.experiment.network()->parameter_count());
   const std::string written = SerializeNetworkFile(network);
   FRESCO_CHECK(SerializeNetworkFile(ParseNetworkFile(written, "what was written")) == written);
 }

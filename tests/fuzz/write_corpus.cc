@@ -136,7 +136,7 @@ Experiment SmallExperiment() {
 
 void WriteFiles(const std::filesystem::path& directory) {
   const Experiment experiment = SmallExperiment();
-  const Vector parameters = InitialParameters(experiment.network_shape(), 1);
+  const Vector parameters = experiment.network()->InitialParameters(1);
   Corpus(directory, "network_file_fuzz").Add(SerializeNetworkFile({experiment, 3, 300, parameters}));
   Checkpoint checkpoint{experiment, 1, 2};
   TrainingState& training = checkpoint.training;

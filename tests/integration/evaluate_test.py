@@ -58,6 +58,21 @@ class Evaluate(FrescoTest):
         self.assertEqual([flown["total_aoi"] for flown in baselines],
                          [summary["baselines"][policy]["total_aoi"] for policy in ("aoi", "distance")])
 
+    def test_flies_a_network_for_sets_over_any_number_of_sensors(self):
+        config = self.folder / "sets.textproto"
+        config.write_text("scenario { %s } agent { set_network {} safe_action_mask: true coverage_mask: true } "
+                          "schedule { episodes: 30 minimum_replay_size: 500 inserts_per_update: 16 }" %
+                          " ".join(f"sensor {{ x_m: {x} y_m: {y} }}" for x, y in SENSORS_M))
+        summary = self.train(17326, "sets", config=config)
+        flown = self.flight("--policy", self.folder / "sets")
+        self.check(flown)
+        self.assertEqual(flown["total_aoi"], summary["total_aoi"])
+        other = self.folder / "other.textproto"
+        other.write_text("scenario { random_sensors { count: 7 } } agent { set_network {} safe_action_mask: true }")
+        flown = self.flight("--policy", self.folder / "sets", "--config", other)
+        self.assertTrue(flown["arrived"])
+        self.assertEqual(len(flown["flight"][0]["aoi"]), 7)
+
     def test_flies_the_exact_optimum_by_the_equations(self):
         fields = [(SENSORS_M, 25, 3733), (SENSORS_M, 50, 3459), (SENSORS_M, 100, 2789), (SENSORS_M, 150, 2097),
                   ([(125, 475), (100, 200), (75, 325)], 100, 985)]

@@ -10,6 +10,8 @@
 
 #include "learner/weight_publisher.h"
 #include "msgs/versions_in_flight.h"
+#include "nn/mlp.h"
+#include "nn/set_network.h"
 #include "storage/checkpoint_file.h"
 #include "tests/support/heap_use.h"
 #include "tests/training/literal_run.h"
@@ -22,7 +24,6 @@ namespace fresco {
 namespace {
 
 constexpr double kMemoryTolerance = 0.02;
-const MlpShape kMemoryShape({25, 300, 200, 45});
 
 /// The episode in vectors that have grown transition by transition.
 Episode Grown(const Episode& episode) {
@@ -96,14 +97,19 @@ TEST_F(LearnerMemoryTest, OfABatchAndOfTheNetworksIsForetold) {
     matrix->setZero();
   }
   std::fill(batch.next_masks.begin(), batch.next_masks.end(), uint8_t{1});
-  const Vector initial = InitialParameters(kMemoryShape, 1);
-  const int64_t measured = HeapUseOf([&] {
-    auto dqn = std::make_unique<Dqn>(kMemoryShape, initial, DqnOptions{.batch_size = kColumns, .adam = {}},
-                                     kThreads);
-    dqn->Update(batch, 1e-3);
-    return dqn;
-  });
-  ExpectNear(measured, Dqn::ParameterBytes(kMemoryShape) + Dqn::BatchBytes(kMemoryShape, kColumns, kThreads));
+  const std::shared_ptr<const Network> networks[] = {
+      std::make_shared<Mlp>(MlpShape({25, 300, 200, 45})),
+      std::make_shared<SetNetwork>(SetShape{1, 4, 6, 9, {64, 64}, {128, 128}, {64}})};
+  for (const std::shared_ptr<const Network>& network : networks) {
+    const Vector initial = network->InitialParameters(1);
+    const int64_t measured = HeapUseOf([&] {
+      auto dqn =
+          std::make_unique<Dqn>(network, initial, DqnOptions{.batch_size = kColumns, .adam = {}}, kThreads);
+      dqn->Update(batch, 1e-3);
+      return dqn;
+    });
+    ExpectNear(measured, Dqn::ParameterBytes(*network) + Dqn::BatchBytes(*network, kColumns, kThreads));
+  }
 }
 
 TEST_F(LearnerMemoryTest, OfOrdersInFlightIsForetoldAtMost) {

@@ -9,6 +9,7 @@
 #include "core/clock.h"
 #include "msgs/protocol_times.h"
 #include "msgs/world_messages.h"
+#include "nn/mlp.h"
 #include "tests/msgs/message_samples.h"
 #include "tests/training/literal_run.h"
 #include "worlds/uav/uav_world.h"
@@ -190,7 +191,7 @@ TEST_F(LearnerNodeTest, IgnoresStatusesThatComeAgain) {
 }
 
 TEST_F(LearnerNodeTest, CountsTheChunksOfNetworksThatItSends) {
-  const auto parameters = std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1));
+  const auto parameters = std::make_shared<const Vector>(experiment_.network()->InitialParameters(1));
   node_.OfferVersion({NetworkKind::kCurrent, 0}, parameters);
   NextStatus();
   EXPECT_EQ(node_.counters().weights_chunks_sent, ChunkCount(parameters->size()));
@@ -201,7 +202,7 @@ TEST_F(LearnerNodeTest, TellsItsState) {
   node_.WriteOrder(Order{});
   EXPECT_FALSE(node_.WaitForNext(0));
   node_.OfferVersion({NetworkKind::kTarget, 5},
-                     std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1)));
+                     std::make_shared<const Vector>(experiment_.network()->InitialParameters(1)));
   node_.Report({.warning = "the disk is full"});
   SendStatus(7, 0);
   NextStatus();

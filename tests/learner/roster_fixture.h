@@ -19,7 +19,7 @@ class RosterFixture : public ::testing::Test {
  protected:
   RosterFixture()
       : experiment_(SmallExperiment()),
-        parameters_(std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1))),
+        parameters_(std::make_shared<const Vector>(experiment_.network()->InitialParameters(1))),
         ledger_(experiment_.world()) {}
 
   void Write(int64_t orders) {

@@ -44,8 +44,7 @@ Forger::Forger(const Experiment& experiment, Bus& bus, const Channels& channels)
 }
 
 void Forger::Answer(const orders_t& message) {
-  const auto zero =
-      std::make_shared<const Vector>(Vector::Zero(experiment_->network_shape().parameter_count()));
+  const auto zero = std::make_shared<const Vector>(Vector::Zero(experiment_->network()->parameter_count()));
   for (const order_t& wire : message.orders) {
     Order order;
     if (FromWire(wire, order)) {
@@ -169,7 +168,7 @@ class WholeRun : public ::testing::Test {
 TEST_F(WholeRun, LearnsSomethingAndEvaluatesOnTheWay) {
   EXPECT_GT(expected_.updates, 300);
   EXPECT_GE(expected_.evaluations, 10);
-  EXPECT_FALSE(expected_.weights == InitialParameters(experiment_.network_shape(), 5));
+  EXPECT_FALSE(expected_.weights == experiment_.network()->InitialParameters(5));
   EXPECT_TRUE(expected_.weights.allFinite());
 }
 

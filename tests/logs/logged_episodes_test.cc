@@ -10,6 +10,7 @@
 #include "bus/bus.h"
 #include "core/bytes.h"
 #include "core/error.h"
+#include "nn/mlp.h"
 #include "tests/logs/run_log.h"
 #include "tests/support/temporary_folder.h"
 

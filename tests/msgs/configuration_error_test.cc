@@ -173,13 +173,14 @@ TEST(ConfigurationSize, OfTheNetworkIsBounded) {
   EXPECT_THAT(Refusal("agent { hidden_layers: [8192, 8192] }"),
               AllOf(HasSubstr("my.textproto: agent.hidden_layers: 67346452 parameters"),
                     HasSubstr("at most 10000000")));
-  EXPECT_EQ(Experiment::Parse("agent { hidden_layers: [3000, 3000] }", "my").network_shape().layers(), 3);
+  EXPECT_EQ(Experiment::Parse("agent { hidden_layers: [3000, 3000] }", "my").network()->layer_sizes().size(),
+            4u);
 }
 
 TEST(ConfigurationSize, OfTheNetworksDepthIsBounded) {
   const auto deep = [](int layers) { return "agent { " + Repeated("hidden_layers: 1 ", layers) + "}"; };
   EXPECT_THAT(Refusal(deep(17)), HasSubstr("agent.hidden_layers: 17 layers; allowed: at most 16"));
-  EXPECT_EQ(Experiment::Parse(deep(16), "my").network_shape().layers(), 17);
+  EXPECT_EQ(Experiment::Parse(deep(16), "my").network()->layer_sizes().size(), 18u);
   EXPECT_THAT(Refusal(deep(100'000)), HasSubstr("agent.hidden_layers: 100000 layers"));
 }
 

@@ -43,8 +43,8 @@ TEST(Experiment, TakesTablesIAndIIWhereNothingIsSaid) {
   EXPECT_EQ(agent.exponential().decay_rate(), 0.95);
   EXPECT_EQ(agent.exponential().decay_steps(), 10000);
   EXPECT_EQ(agent.target_update_period(), 300);
-  EXPECT_EQ(experiment.network_shape().layer_sizes(), (std::vector<int>{7, 200, 256, 20}));
-  EXPECT_EQ(Experiment::Parse("agent { sensor_geometry: true }", "a").network_shape().inputs(), 13);
+  EXPECT_EQ(experiment.network()->layer_sizes(), (std::vector<int>{7, 200, 256, 20}));
+  EXPECT_EQ(Experiment::Parse("agent { sensor_geometry: true }", "a").network()->inputs(), 13);
   EXPECT_FALSE(agent.safe_action_mask() || agent.coverage_mask() || agent.double_dqn());
   EXPECT_EQ(agent.discount(), 1);
 }

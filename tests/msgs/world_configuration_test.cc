@@ -33,8 +33,8 @@ TEST(WorldConfiguration, NamesTheWorld) {
 }
 
 TEST(WorldConfiguration, DecidesTheNetwork) {
-  EXPECT_EQ(Configured("cartpole {}").network_shape().layer_sizes(), (std::vector<int>{4, 200, 256, 2}));
-  EXPECT_EQ(Configured("acrobot {}").network_shape().layer_sizes(), (std::vector<int>{6, 200, 256, 3}));
+  EXPECT_EQ(Configured("cartpole {}").network()->layer_sizes(), (std::vector<int>{4, 200, 256, 2}));
+  EXPECT_EQ(Configured("acrobot {}").network()->layer_sizes(), (std::vector<int>{6, 200, 256, 3}));
 }
 
 TEST(WorldConfiguration, OfABuiltInWorldHasARange) {
@@ -158,6 +158,52 @@ TEST(FieldsOfEpisodes, AreRefusedWithTheFieldThatIsWrong) {
               HasSubstr("scenario.random_field.coverage_radius_m: nan to 1"));
   EXPECT_THAT(refusal(per_episode, "initial_energy_j: 5000"),
               HasSubstr("scenario.initial_energy_j: 5000 is out of range"));
+}
+
+TEST(SetNetworkOption, DecidesTheNetwork) {
+  const Experiment experiment = Configured("agent { set_network {} }");
+  // Six inputs of the UAV, seven of each of three sensors.
+  EXPECT_EQ(experiment.network()->inputs(), 6 + 3 * 7);
+  EXPECT_EQ(experiment.network()->outputs(), 20);
+  EXPECT_EQ(experiment.network()->layer_sizes(),
+            (std::vector<int>{13, 64, 64, 0, 134, 128, 128, 5, 0, 192, 64, 5}));
+  EXPECT_EQ(Configured("scenario { random_sensors { count: 9 } } agent { set_network {} }")
+                .network()
+                ->layer_sizes(),
+            experiment.network()->layer_sizes());
+  const Experiment other =
+      Configured("", {"agent.set_network.encoder_layers=8", "agent.set_network.trunk_layers=9,10",
+                      "agent.set_network.head_layers=11,12"});
+  EXPECT_EQ(other.network()->layer_sizes(), (std::vector<int>{13, 8, 0, 22, 9, 10, 5, 0, 18, 11, 12, 5}));
+  const Experiment again = Configured(other.Text());
+  EXPECT_EQ(again.Text(), other.Text());
+  EXPECT_EQ(again.hash(), other.hash());
+}
+
+TEST(SetNetworkOption, IsRefusedInWorldsWithoutSets) {
+  EXPECT_EQ(RefusalOf("cartpole {} agent { set_network {} }"),
+            "my.textproto: agent.set_network: set; allowed: omitted, since the world cartpole has no "
+            "observation that is made of a set of items");
+}
+
+TEST(SetNetworkOption, IsRefusedBesideHiddenLayers) {
+  EXPECT_EQ(
+      RefusalOf("agent { hidden_layers: [8, 9] set_network {} }"),
+      "my.textproto: agent.hidden_layers (2 given) and agent.set_network contradict each other; allowed: "
+      "one of the two");
+}
+
+TEST(SetNetworkOption, HasLimits) {
+  EXPECT_THAT(RefusalOf("agent { set_network { trunk_layers: 0 } }"),
+              HasSubstr("agent.set_network.trunk_layers[0]: 0 is out of range; allowed: 1 to 8192"));
+  EXPECT_THAT(RefusalOf("agent { set_network { head_layers: [1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1] } }"),
+              HasSubstr("agent.set_network.head_layers: 17 layers; allowed: at most 16"));
+  EXPECT_THAT(RefusalOf("agent { set_network { trunk_layers: [8192, 8192] } }"),
+              AllOf(HasSubstr("agent.set_network: "), HasSubstr("parameters of the network; allowed: at most "
+                                                                "10000000")));
+  EXPECT_THAT(
+      RefusalOf("scenario { random_sensors { count: 250 } } agent { set_network {} batch_size: 4096 }"),
+      HasSubstr("agent.batch_size: 4096 columns of "));
 }
 
 TEST(EvaluationEpisodes, HaveARange) {

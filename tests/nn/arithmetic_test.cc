@@ -117,6 +117,28 @@ TEST_P(ArithmeticTest, ProductsHaveTheBitsOfTheirDefinition) {
   }
 }
 
+TEST_P(ArithmeticTest, AProductThatIsContinuedInPlaceHasTheBitsOfOneProduct) {
+  for (const bool neighbours : {false, true}) {
+    for (int size = 1; size <= 70; ++size) {
+      Operands operands({size, 1 + size % 13, 2 + size % 9}, neighbours, stream_);
+      Product product = operands.product;
+      product.bias = operands.bias.data();
+      product.inner = 1 + size % (operands.product.inner - 1);
+      arithmetic().multiply(product);
+      product.a += product.inner * product.a_stride;
+      product.b += product.inner * product.b_row_stride;
+      product.inner = operands.product.inner - product.inner;
+      product.bias = product.result;
+      product.bias_stride = product.result_stride;
+      product.finish = Finish::kRelu;
+      arithmetic().multiply(product);
+      operands.product.bias = operands.bias.data();
+      operands.product.finish = Finish::kRelu;
+      ExpectDefinedResult(operands);
+    }
+  }
+}
+
 TEST_P(ArithmeticTest, RoundsEachMultiplicationAndAdditionOnce) {
   // The exact sum lies just beside the middle of two floats, by less than a double can show.
   constexpr float kOne = 1.0f;

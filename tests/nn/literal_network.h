@@ -1,10 +1,11 @@
-// The network once more, in double precision and plain loops: what nn/ is checked against.
+// The networks once more, in double precision and plain loops: what nn/ is checked against.
 #pragma once
 
 #include <vector>
 
 #include "core/random.h"
-#include "nn/mlp.h"
+#include "nn/network.h"
+#include "nn/set_network.h"
 
 namespace fresco {
 
@@ -14,10 +15,13 @@ using Doubles = std::vector<double>;
 Doubles LiteralForward(const std::vector<int>& layer_sizes, const Doubles& parameters,
                        const Doubles& observation);
 
+/// The same for a SetNetwork.
+Doubles LiteralForward(const SetShape& shape, const Doubles& parameters, const Doubles& observation);
+
 /// Uniform values in [-bound, bound).
 std::vector<float> RandomFloats(RandomStream& stream, size_t count, double bound);
 
 /// Writes one observation into a column of a workspace's input.
-void SetColumn(MlpWorkspace& workspace, int column, const std::vector<float>& observation);
+void SetColumn(NetworkWorkspace& workspace, int column, const std::vector<float>& observation);
 
 }  // namespace fresco

@@ -21,7 +21,7 @@ class MlpGradient : public ::testing::TestWithParam<std::vector<int>> {
  protected:
   MlpGradient()
       : mlp_(MlpShape(GetParam())),
-        parameters_(InitialParameters(mlp_.shape(), 5)),
+        parameters_(mlp_.InitialParameters(5)),
         workspace_(mlp_.shape(), kBatch, MlpWorkspace::Passes::kForwardAndBackward) {
     RandomStream stream(7, RandomPurpose::kTest, 0, 0);
     for (int layer = 0; layer < mlp_.shape().layers(); ++layer) {
@@ -137,7 +137,7 @@ Bits OutputBits(const MlpWorkspace& workspace, int column) {
 
 class MlpBits : public ::testing::TestWithParam<std::vector<int>> {
  protected:
-  MlpBits() : mlp_(MlpShape(GetParam())), parameters_(InitialParameters(mlp_.shape(), 3)) {
+  MlpBits() : mlp_(MlpShape(GetParam())), parameters_(mlp_.InitialParameters(3)) {
     RandomStream stream(1, RandomPurpose::kTest, 0, 0);
     for (int i = 0; i < kObservations; ++i) {
       observations_.push_back(RandomFloats(stream, static_cast<size_t>(mlp_.shape().inputs()), 2));
@@ -208,7 +208,7 @@ TEST(ArithmeticFingerprint, IsTheSameEveryTime) {
 TEST(InitialParameters, AreUniformWithinHesBoundAndBiasesAreZero) {
   const MlpShape shape({7, 200, 256, 20});
   EXPECT_EQ(shape.parameter_count(), 7 * 200 + 200 + 200 * 256 + 256 + 256 * 20 + 20);
-  const Vector parameters = InitialParameters(shape, 1);
+  const Vector parameters = Mlp(shape).InitialParameters(1);
   for (int layer = 0; layer < shape.layers(); ++layer) {
     const double bound = std::sqrt(6.0 / shape.layer_inputs(layer));
     double sum = 0;
@@ -229,8 +229,8 @@ TEST(InitialParameters, AreUniformWithinHesBoundAndBiasesAreZero) {
 
 TEST(InitialParameters, FollowFromTheSeed) {
   const MlpShape shape({5, 8, 10});
-  EXPECT_EQ(InitialParameters(shape, 1), InitialParameters(shape, 1));
-  EXPECT_NE(InitialParameters(shape, 1), InitialParameters(shape, 2));
+  EXPECT_EQ(Mlp(shape).InitialParameters(1), Mlp(shape).InitialParameters(1));
+  EXPECT_NE(Mlp(shape).InitialParameters(1), Mlp(shape).InitialParameters(2));
 }
 
 }  // namespace

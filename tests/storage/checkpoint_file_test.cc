@@ -67,9 +67,7 @@ class CheckpointFile : public ::testing::Test {
     return Refusal(SerializeCheckpoint(checkpoint_));
   }
 
-  Vector Parameters(uint64_t seed) const {
-    return InitialParameters(checkpoint_.experiment.network_shape(), seed);
-  }
+  Vector Parameters(uint64_t seed) const { return checkpoint_.experiment.network()->InitialParameters(seed); }
   std::shared_ptr<const Vector> Shared(uint64_t seed) const {
     return std::make_shared<const Vector>(Parameters(seed));
   }
@@ -146,7 +144,7 @@ TEST_F(CheckpointFile, RefusesEpisodesThatAreNone) {
 
 TEST_F(CheckpointFile, HoldsOnlySeedsAndActionsOfARepeatableWorld) {
   const Experiment cartpole = Experiment::Parse("cartpole {} agent { hidden_layers: [3] }", "a test");
-  const auto random_vector = [&](uint64_t seed) { return InitialParameters(cartpole.network_shape(), seed); };
+  const auto random_vector = [&](uint64_t seed) { return cartpole.network()->InitialParameters(seed); };
   Checkpoint checkpoint{cartpole, 0xfeedu, -5};
   checkpoint.training.current = checkpoint.training.target = random_vector(1);
   checkpoint.training.adam = {0, 1, 1, random_vector(2), random_vector(3)};

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/files.h"
+#include "nn/mlp.h"
 #include "storage/run_folder.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"

@@ -15,8 +15,8 @@ class NetworkFile : public ::testing::Test {
   NetworkFile()
       : path_(folder_.path() / "best.network"),
         experiment_(Experiment::Parse("agent { hidden_layers: [9] }", "a test")) {
-    WriteFileAtomically(path_, SerializeNetworkFile(
-                                   {experiment_, 4, 400, InitialParameters(experiment_.network_shape(), 2)}));
+    WriteFileAtomically(
+        path_, SerializeNetworkFile({experiment_, 4, 400, experiment_.network()->InitialParameters(2)}));
   }
 
   void ExpectRefused(const std::string& content) {
@@ -33,8 +33,16 @@ TEST_F(NetworkFile, ReadsBackWhatWasWritten) {
   const StoredNetwork network = ReadNetworkFile(path_);
   EXPECT_EQ(network.version, 4);
   EXPECT_EQ(network.updates, 400);
-  EXPECT_EQ(network.parameters, InitialParameters(experiment_.network_shape(), 2));
+  EXPECT_EQ(network.parameters, experiment_.network()->InitialParameters(2));
   EXPECT_EQ(network.experiment.Text(), experiment_.Text());
+}
+
+TEST_F(NetworkFile, HoldsANetworkForSets) {
+  const Experiment sets = Experiment::Parse("agent { set_network {} }", "a test");
+  const Vector parameters = sets.network()->InitialParameters(2);
+  const StoredNetwork network = ParseNetworkFile(SerializeNetworkFile({sets, 4, 400, parameters}), "a test");
+  EXPECT_EQ(network.parameters, parameters);
+  EXPECT_EQ(network.experiment.network()->layer_sizes(), sets.network()->layer_sizes());
 }
 
 TEST_F(NetworkFile, RefusesEveryTruncation) {

@@ -30,7 +30,7 @@ class RunFolderTest : public ::testing::Test {
 
   std::string Content(const std::string& name) const { return ReadFile(directory_ / name); }
 
-  Vector Parameters(uint64_t seed) const { return InitialParameters(experiment_.network_shape(), seed); }
+  Vector Parameters(uint64_t seed) const { return experiment_.network()->InitialParameters(seed); }
 
   /// What the error of opening a run's folder at `path` says; it must be wrong use.
   std::string Refusal(const Path& path) const {

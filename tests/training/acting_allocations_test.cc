@@ -69,6 +69,10 @@ TEST(ActingAllocations, ThereAreNoneInTheFieldOnceWarm) {
   ExpectNoAllocations(SmallField(WithMasks()));
 }
 
+TEST(ActingAllocations, ThereAreNoneWithANetworkForSetsOnceWarm) {
+  ExpectNoAllocations(SmallSetExperiment());
+}
+
 TEST(ActingAllocations, ThereAreNoneInCartPoleOnceWarm) {
   ExpectNoAllocations(SmallCartPole());
 }

@@ -34,7 +34,7 @@ Settings WithMasks() {
 
 SharedParameters SampleNetwork(const Experiment& experiment, uint32_t number) {
   RandomStream stream(2026, RandomPurpose::kTest, 1, number);
-  const auto count = static_cast<size_t>(experiment.network_shape().parameter_count());
+  const auto count = static_cast<size_t>(experiment.network()->parameter_count());
   const std::vector<float> values = RandomFloats(stream, count, 0.3);
   return std::make_shared<const Vector>(Eigen::Map<const Vector>(values.data(), static_cast<int64_t>(count)));
 }
@@ -65,8 +65,7 @@ std::map<int64_t, OrderResult> FlyTogether(const Experiment& experiment, int cap
     for (int i = 0; i < per_slot && next != plans.end() && flyer.HasRoom(); ++i, ++next) {
       flyer.Start(next->order, next->current, next->target);
     }
-    flyer.Step(
-        [&](const Order& order, const OrderResult& result) { flown.emplace(order.index, result); });
+    flyer.Step([&](const Order& order, const OrderResult& result) { flown.emplace(order.index, result); });
   }
   return flown;
 }

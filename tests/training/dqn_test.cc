@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "nn/mlp.h"
+#include "nn/set_network.h"
 #include "tests/nn/literal_network.h"
 #include "tests/support/allocation_count.h"
 #include "training/replay_memory.h"
@@ -90,7 +92,7 @@ class DqnTest : public ::testing::TestWithParam<bool> {
  protected:
   DqnTest()
       : stream_(GetParam() ? 1 : 2, RandomPurpose::kTest, 0, 0),
-        dqn_(MlpShape(kLayers), InitialParameters(MlpShape(kLayers), 3), Options()) {}
+        dqn_(network_, network_->InitialParameters(3), Options()) {}
   static DqnOptions Options() {
     DqnOptions options;
     options.double_dqn = GetParam();
@@ -99,6 +101,7 @@ class DqnTest : public ::testing::TestWithParam<bool> {
     return options;
   }
   RandomStream stream_;
+  std::shared_ptr<const Network> network_ = std::make_shared<Mlp>(MlpShape(kLayers));
   Dqn dqn_;
 };
 
@@ -106,7 +109,7 @@ TEST_P(DqnTest, UpdatesAsTheLiteralVersionDoes) {
   for (int warm_up = 0; warm_up < 20; ++warm_up) {  // so that current and target differ
     dqn_.Update(RandomBatch(stream_), 1e-2);
   }
-  Dqn fresh(MlpShape(kLayers), dqn_.current(), Options());
+  Dqn fresh(network_, dqn_.current(), Options());
   const MiniBatch batch = RandomBatch(stream_);
   fresh.CopyToTarget();
   fresh.Update(RandomBatch(stream_), 1e-2);  // current moves away from target
@@ -188,8 +191,16 @@ MiniBatch WideBatch(int inputs, int actions, int size, RandomStream& stream) {
   return batch;
 }
 
-TEST(DqnThreads, ChangeNoBit) {
-  const MlpShape shape({7, 200, 256, 20});
+/// Networks with 7 inputs and 20 outputs.
+class DqnOfNetworks : public ::testing::TestWithParam<std::shared_ptr<const Network>> {};
+
+const auto kNetworks =
+    ::testing::Values(std::make_shared<const Mlp>(MlpShape({7, 200, 256, 20})),
+                      std::make_shared<const SetNetwork>(SetShape{1, 3, 2, 5, {64, 64}, {128, 128}, {64}}));
+INSTANTIATE_TEST_SUITE_P(FlatAndSets, DqnOfNetworks, kNetworks);
+
+TEST_P(DqnOfNetworks, ThreadsChangeNoBit) {
+  const std::shared_ptr<const Network> network = GetParam();
   for (const int size : {200, 64, 33, 5}) {
     for (const bool double_dqn : {false, true}) {
       DqnOptions options;
@@ -198,7 +209,7 @@ TEST(DqnThreads, ChangeNoBit) {
       std::optional<Vector> expected;
       for (const int threads : {1, 2, 3, 8}) {
         RandomStream stream(5, RandomPurpose::kTest, 0, 0);
-        Dqn dqn(shape, InitialParameters(shape, 1), options, threads);
+        Dqn dqn(network, network->InitialParameters(1), options, threads);
         for (int update = 0; update < 6; ++update) {
           dqn.Update(WideBatch(7, 20, size, stream), 1e-3);
           if (update == 3) {
@@ -216,7 +227,7 @@ TEST(DqnThreads, ChangeNoBit) {
 
 #ifndef FRESCO_SANITIZED
 
-class TrainingAllocations : public ::testing::Test {
+class TrainingAllocations : public DqnOfNetworks {
  protected:
   static constexpr int kInputs = 7;
   static constexpr int kActions = 20;
@@ -240,13 +251,15 @@ class TrainingAllocations : public ::testing::Test {
   std::vector<uint8_t> mask_;
 };
 
-TEST_F(TrainingAllocations, AreSeenByThisTest) {
+INSTANTIATE_TEST_SUITE_P(FlatAndSets, TrainingAllocations, kNetworks);
+
+TEST_P(TrainingAllocations, AreSeenByThisTest) {
   const int64_t before = AllocationCount();
   const auto batch = std::make_unique<MiniBatch>(kInputs, kActions, kBatch);
   EXPECT_GE(AllocationCount() - before, 7);
 }
 
-TEST_F(TrainingAllocations, DoNotHappenInTheReplayMemoryFromTheFirstTransitionOn) {
+TEST_P(TrainingAllocations, DoNotHappenInTheReplayMemoryFromTheFirstTransitionOn) {
   const int64_t before = AllocationCount();
   for (uint32_t i = 0; i < 1200; ++i) {
     Insert();
@@ -255,13 +268,13 @@ TEST_F(TrainingAllocations, DoNotHappenInTheReplayMemoryFromTheFirstTransitionOn
   EXPECT_EQ(AllocationCount(), before);
 }
 
-TEST_F(TrainingAllocations, DoNotHappenInUpdatesAndTargetCopiesOnceWarm) {
+TEST_P(TrainingAllocations, DoNotHappenInUpdatesAndTargetCopiesOnceWarm) {
   for (const bool double_dqn : {false, true}) {
-    const MlpShape shape({kInputs, 200, 256, kActions});
+    const std::shared_ptr<const Network> network = GetParam();
     DqnOptions options;
     options.double_dqn = double_dqn;
     options.batch_size = kBatch;
-    Dqn dqn(shape, InitialParameters(shape, 1), options, 2);
+    Dqn dqn(network, network->InitialParameters(1), options, 2);
     const auto update = [&](uint32_t index) {
       Insert();
       Sample(index);

@@ -26,7 +26,7 @@ Doubles ValuesIn(const Experiment& experiment, const Vector& parameters, std::sp
                          static_cast<double>(state[2]) / (12 * std::numbers::pi / 180),
                          static_cast<double>(state[3]) / 2};
   const Doubles wide(parameters.data(), parameters.data() + parameters.size());
-  return LiteralForward(experiment.network_shape().layer_sizes(), wide, input);
+  return LiteralForward(experiment.network()->layer_sizes(), wide, input);
 }
 
 size_t Larger(const Doubles& values) {

@@ -21,7 +21,7 @@ float& FieldOf(Episode& episode, size_t i, size_t field) {
 class LedgerTest : public ::testing::Test {
  protected:
   LedgerTest() : experiment_(SmallExperiment()), world_(experiment_.world()), ledger_(world_) {
-    const auto parameters = std::make_shared<const Vector>(InitialParameters(experiment_.network_shape(), 1));
+    const auto parameters = std::make_shared<const Vector>(experiment_.network()->InitialParameters(1));
     for (int64_t index = 0; index < kOrders; ++index) {
       Order order;
       order.index = index;

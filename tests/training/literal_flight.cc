@@ -29,7 +29,7 @@ Doubles LiteralValues(const Experiment& experiment, const Vector& parameters, co
     }
   }
   const Doubles wide(parameters.data(), parameters.data() + parameters.size());
-  return LiteralForward(experiment.network_shape().layer_sizes(), wide, input);
+  return LiteralForward(experiment.network()->layer_sizes(), wide, input);
 }
 
 int LiteralArgmax(const Doubles& values, const Mask& mask) {

@@ -12,7 +12,9 @@
 
 namespace fresco {
 
-Experiment SmallExperiment(const Settings& settings) {
+namespace {
+
+Experiment SmallFieldWith(const std::string& network, const Settings& settings) {
   return Experiment::Parse(R"(
       scenario {
         grid { columns: 5 rows: 5 } slots: 14
@@ -20,8 +22,9 @@ Experiment SmallExperiment(const Settings& settings) {
         sensor { x_m: 0 y_m: 100 } sensor { x_m: 75 y_m: 25 weight: 2 }
         coverage_radius_m: 30
       }
-      agent {
-        hidden_layers: [16, 12] double_dqn: true safe_action_mask: true coverage_mask: true
+      agent {)" + network +
+                               R"(
+        double_dqn: true safe_action_mask: true coverage_mask: true
         batch_size: 16 replay_capacity: 300 target_update_period: 20
         linear { initial: 1e-2 final: 1e-4 }
       }
@@ -30,6 +33,17 @@ Experiment SmallExperiment(const Settings& settings) {
         updates_per_version: 7 versions_per_evaluation: 4 ladder {}
       })",
                            "the small experiment", settings);
+}
+
+}  // namespace
+
+Experiment SmallExperiment(const Settings& settings) {
+  return SmallFieldWith("hidden_layers: [16, 12]", settings);
+}
+
+Experiment SmallSetExperiment(const Settings& settings) {
+  return SmallFieldWith("set_network { encoder_layers: [16, 12] trunk_layers: 16 head_layers: 12 }",
+                        settings);
 }
 
 Experiment SmallCartPole(const Settings& settings) {

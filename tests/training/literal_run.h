@@ -14,6 +14,9 @@ namespace fresco {
 /// A small field (5 x 5 cells, two sensors) and a small network.
 Experiment SmallExperiment(const Settings& settings = {});
 
+/// The same field with a network for sets.
+Experiment SmallSetExperiment(const Settings& settings = {});
+
 /// CartPole of twelve steps at most, with a tiny network. Random episodes are about as long, so some are cut
 /// off and some are not; every evaluation has three of them.
 Experiment SmallCartPole(const Settings& settings = {});

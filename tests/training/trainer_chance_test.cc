@@ -24,7 +24,7 @@ class LiteralCartPoleTraining {
   LiteralCartPoleTraining(const Experiment& experiment, bool bootstraps)
       : world_(&experiment.world()),
         bootstraps_(bootstraps),
-        dqn_(experiment.network_shape(), InitialParameters(experiment.network_shape(), kCartPoleSeed),
+        dqn_(experiment.network(), experiment.network()->InitialParameters(kCartPoleSeed),
              {true, 0.99f, kBatch, {0.9, 0.999, 1e-8}}) {}
 
   void Take(const Episode& episode) {

@@ -28,7 +28,7 @@ class LiteralTraining {
   explicit LiteralTraining(const RecordedRun& run, bool flown_return_bound = false)
       : run_(&run),
         flown_return_bound_(flown_return_bound),
-        dqn_(run.experiment.network_shape(), InitialParameters(run.experiment.network_shape(), 5),
+        dqn_(run.experiment.network(), run.experiment.network()->InitialParameters(5),
              {true, 1.0f, kBatch, {0.9, 0.999, 1e-8}}) {}
 
   void Take(const Episode& episode) {
@@ -150,7 +150,7 @@ TEST(Trainer, MakesVersionsAndTargetCopiesAtTheirUpdates) {
   ASSERT_EQ(run.weights.size(), 371u + 1);
   ASSERT_EQ(run.current_versions.size(), 53u + 1);
   ASSERT_EQ(run.target_versions.size(), 18u + 1);
-  EXPECT_TRUE(run.weights[0] == InitialParameters(run.experiment.network_shape(), 5));
+  EXPECT_TRUE(run.weights[0] == run.experiment.network()->InitialParameters(5));
   for (size_t version = 0; version < run.current_versions.size(); ++version) {
     EXPECT_TRUE(*run.current_versions[version] == run.weights[7 * version]) << version;
   }

@@ -111,6 +111,20 @@ TEST(WorldDeathTest, RefusesADescriptionWithoutObservationsOrFigures) {
   EXPECT_DEATH(MakeWalk(figures), "figures");
 }
 
+TEST(WorldDeathTest, RefusesSetsThatDoNotFit) {
+  const auto sets = [](ObservationSets given) {
+    MakeWalk([&](WorldDescription& description) {
+      description.observation_size = 2 + 2 * 3;
+      description.sets = given;
+    });
+  };
+  sets({2, 2, 3, 3});  // 9 actions
+  EXPECT_DEATH(sets({1, 2, 3, 3}), "sets");
+  EXPECT_DEATH(sets({2, 3, 2, 3}), "sets");
+  EXPECT_DEATH(sets({2, 2, 3, 4}), "sets");
+  EXPECT_DEATH(sets({8, 0, 3, 9}), "sets");
+}
+
 TEST(WorldDeathTest, RefusesNamesThatAreNone) {
   const std::string too_long(kMaximumNameBytes + 1, 'a');
   for (const std::string& name :

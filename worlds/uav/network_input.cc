@@ -12,17 +12,24 @@ float Share(int position, int cells) {
   return cells > 1 ? static_cast<float>(position) / static_cast<float>(cells - 1) : 0.0f;
 }
 
+constexpr int kOwnInputs = 6;     // of an input for sets
+constexpr int kSensorInputs = 7;  // of each sensor
+
+/// The grid's longer side.
+double Side(const Scenario& scenario) {
+  return std::max(scenario.columns, scenario.rows) * scenario.cell_m;
+}
+
 /// The horizontal distance, divided by the grid's longer side.
 float ScaledDistance(const Scenario& scenario, Cell cell, const Sensor& sensor) {
-  return static_cast<float>(HorizontalDistance(cell, scenario.cell_m, sensor) /
-                            (std::max(scenario.columns, scenario.rows) * scenario.cell_m));
+  return static_cast<float>(HorizontalDistance(cell, scenario.cell_m, sensor) / Side(scenario));
 }
 
 }  // namespace
 
 NetworkInput::NetworkInput(const UavWorld& world, NetworkInputOptions options)
     : world_(&world), options_(options) {
-  if (!options.sensor_geometry) {
+  if (!options.sensor_geometry || options.sets) {
     return;
   }
   const Scenario& scenario = world.scenario();
@@ -41,13 +48,51 @@ NetworkInput::NetworkInput(const UavWorld& world, NetworkInputOptions options)
 }
 
 int NetworkInput::Size(int sensors, NetworkInputOptions options) {
+  if (options.sets) {
+    return kOwnInputs + sensors * kSensorInputs;
+  }
   return sensors + 4 + (options.sensor_geometry ? 2 * sensors : 0);
+}
+
+std::optional<ObservationSets> NetworkInput::Sets(int sensors, NetworkInputOptions options) {
+  return options.sets ? std::optional<ObservationSets>({kOwnInputs, sensors, kSensorInputs, kMoves})
+                      : std::nullopt;
+}
+
+void NetworkInput::WriteSets(std::span<const float> state, std::span<float> input) const {
+  const Scenario& scenario = world_->scenario();
+  const double side_m = Side(scenario);
+  const auto slots = static_cast<float>(scenario.slots);
+  const Cell cell = CellIn(state);
+  const auto scaled = [&](double metres) { return static_cast<float>(metres / side_m); };
+  size_t next = 0;
+  input[next++] = Share(cell.column, scenario.columns);
+  input[next++] = Share(cell.row, scenario.rows);
+  input[next++] = scaled((scenario.stop.column - cell.column) * scenario.cell_m);
+  input[next++] = scaled((scenario.stop.row - cell.row) * scenario.cell_m);
+  input[next++] = state[kTimeMarginField] / slots;
+  input[next++] = state[kEnergyMarginField] / static_cast<float>(scenario.initial_energy_j);
+  for (int i = 0; i < world_->sensors(); ++i) {
+    const auto at = static_cast<size_t>(i);
+    const Sensor& sensor = scenario.sensors[at];
+    input[next++] = 1;
+    input[next++] = scaled(sensor.x_m - cell.column * scenario.cell_m);
+    input[next++] = scaled(sensor.y_m - cell.row * scenario.cell_m);
+    input[next++] = ScaledDistance(scenario, cell, sensor);
+    input[next++] = world_->Covers(cell, i) ? 1 : 0;
+    input[next++] = state[kAoiField + at] / slots;
+    input[next++] = static_cast<float>(world_->sensors() * world_->theta()[at]);
+  }
 }
 
 void NetworkInput::Write(std::span<const float> state, std::span<float> input) const {
   const auto sensors = static_cast<size_t>(world_->sensors());
   FRESCO_CHECK(input.size() == static_cast<size_t>(Size(world_->sensors(), options_)));
   FRESCO_CHECK(state.size() == kAoiField + sensors);
+  if (options_.sets) {
+    WriteSets(state, input);
+    return;
+  }
   const Scenario& scenario = world_->scenario();
   const auto slots = static_cast<float>(scenario.slots);
   const Cell cell = CellIn(state);

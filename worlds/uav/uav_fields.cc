@@ -12,8 +12,8 @@
 namespace fresco {
 namespace {
 
-constexpr size_t kOwnInputs = 7;
-constexpr size_t kSensorInputs = 7;
+constexpr int kOwnNumbers = 7;     // that the network sees of the UAV
+constexpr int kSensorNumbers = 7;  // and of each sensor
 
 /// Rounded to the precision of a state, so that a state says the field exactly.
 double AsInAState(double value) {
@@ -76,8 +76,8 @@ WorldDescription DescribeFields(const Scenario& common, const FieldRanges& range
     description.state.push_back({fmt::format("sensor_{}_y_m", sensor), "m"});
     description.state.push_back({fmt::format("sensor_{}_weight", sensor), ""});
   }
-  description.observation_size =
-      static_cast<int>(kOwnInputs + kSensorInputs * static_cast<size_t>(ranges.sensors.maximum));
+  description.sets = {kOwnNumbers, ranges.sensors.maximum, kSensorNumbers, kMoves};
+  description.observation_size = kOwnNumbers + kSensorNumbers * ranges.sensors.maximum;
   return description;
 }
 
@@ -129,7 +129,7 @@ UavFields::UavFields(Scenario common, FieldRanges ranges, UavOptions options)
     : World(DescribeFields(common, ranges, options)),
       common_(std::move(common)),
       ranges_(ranges),
-      options_(options) {
+      options_{options.mask, {}} {
   CheckEveryStopIsReachable();
 }
 
@@ -234,7 +234,7 @@ void UavFields::Observe(std::span<const float> state, std::span<float> observati
   for (size_t number = 0; number < at.most; ++number) {
     const std::span<const float> fields = state.subspan(at.sensor(number), 3);
     if (fields[2] == 0) {
-      input = std::fill_n(input, kSensorInputs, 0.0f);
+      input = std::fill_n(input, kSensorNumbers, 0.0f);
       continue;
     }
     const Sensor sensor = {fields[0], fields[1], fields[2]};

@@ -47,10 +47,10 @@ class UavFields : public World {
   UavFields(Scenario common, FieldRanges ranges, UavOptions options = {});
 
   std::unique_ptr<Environment> NewEnvironment() const override;
-  /// The UAV's own inputs: column, row, the way to the stop (columns, rows), phi / T, Delta / E_max, R. Then
-  /// for each of the most sensors: 1 if the field has it, the way to it (east, north), its distance, 1 if it
-  /// is covered, delta / T and theta; all 0 if the field does not have it. Lengths are divided by the grid's
-  /// longer side.
+  /// An observation for agent.set_network. The UAV's own inputs: column, row, the way to the stop (columns,
+  /// rows), phi / T, Delta / E_max, R. Then for each of the most sensors: 1 if the field has it, the way to
+  /// it (east, north), its distance, 1 if it is covered, delta / T and theta; all 0 if the field does not
+  /// have it. Lengths are divided by the grid's longer side.
   void Observe(std::span<const float> state, std::span<float> observation) const override;
   /// These four are those of the episode's field.
   void Judge(const Episode& episode, std::span<double> figures) const override;

@@ -134,6 +134,7 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.figures = {{"average_aoi", "slots"}, {"total_aoi", "slots"}, {"sum_aoi", "slots"}};
   description.less_is_better = true;
   description.success = "arrived";
+  description.sets = NetworkInput::Sets(static_cast<int>(sensors), options.network_input);
   return description;
 }
 
