@@ -46,16 +46,27 @@ py::array View(std::vector<Value>& values, py::object owner, int rows) {
   return py::array(py::dtype::of<Shown>(), shape, values.data(), owner);
 }
 
+/// The layers of the experiment's flat network. Throws UsageError if it has another one.
+MlpShape ShapeOf(const Experiment& experiment) {
+  if (experiment.agent().has_set_network()) {
+    throw UsageError(
+        "agent.set_network: expected a flat network (agent.hidden_layers); the peer has no other");
+  }
+  return MlpShape(experiment.network()->layer_sizes());
+}
+
 /// The parameters of each layer in the shapes of torch.nn.Linear: weights [outputs x inputs], biases
 /// [outputs].
 py::list LayersOf(const MlpShape& shape, const Vector& parameters) {
   py::list layers;
-  for (int layer = 0; layer < shape.layers(); ++layer) {
-    const py::array_t<float, py::array::f_style> weights(
-        std::vector<py::ssize_t>{shape.layer_outputs(layer), shape.layer_inputs(layer)},
-        parameters.data() + shape.weights_offset(layer));
-    const py::array_t<float> biases(shape.layer_outputs(layer),
-                                    parameters.data() + shape.biases_offset(layer));
+  const float* next = parameters.data();
+  const std::vector<int>& sizes = shape.layer_sizes();
+  for (size_t i = 1; i < sizes.size(); ++i) {
+    const py::array_t<float, py::array::f_style> weights(std::vector<py::ssize_t>{sizes[i], sizes[i - 1]},
+                                                         next);
+    next += weights.size();
+    const py::array_t<float> biases(sizes[i], next);
+    next += biases.size();
     layers.append(py::make_tuple(weights, biases));
   }
   return layers;
@@ -102,14 +113,15 @@ std::vector<bool> SuccessesOf(const EnvironmentBatch& batch, int environments) {
 class LearnerUpdate {
  public:
   explicit LearnerUpdate(const Experiment& experiment)
-      : shape_(experiment.network_shape()),
-        dqn_(shape_, InitialParameters(shape_, experiment.schedule().seed()),
+      : shape_(ShapeOf(experiment)),
+        dqn_(experiment.network(), experiment.network()->InitialParameters(experiment.schedule().seed()),
              {experiment.agent().double_dqn(),
               static_cast<float>(experiment.agent().discount()),
               experiment.agent().batch_size(),
               {experiment.agent().adam().beta1(), experiment.agent().adam().beta2(),
                experiment.agent().adam().epsilon()}}),
-        batch_(shape_.inputs(), shape_.outputs(), experiment.agent().batch_size()) {}
+        batch_(experiment.network()->inputs(), experiment.network()->outputs(),
+               experiment.agent().batch_size()) {}
 
   double Update(const Array<float>& observations, const Array<int16_t>& actions, const Array<float>& rewards,
                 const Array<float>& next_observations, const Array<bool>& terminal,
@@ -175,7 +187,7 @@ void DefineExperiment(py::module_& module) {
       .def_property_readonly("agent", &Experiment::agent)
       .def_property_readonly("schedule", &Experiment::schedule)
       .def_property_readonly("layer_sizes",
-                             [](const Experiment& self) { return self.network_shape().layer_sizes(); })
+                             [](const Experiment& self) { return ShapeOf(self).layer_sizes(); })
       .def_property_readonly("longest_episode",
                              [](const Experiment& self) { return self.world().longest_episode(); })
       .def_property_readonly("action_names",
@@ -195,8 +207,7 @@ void DefineExperiment(py::module_& module) {
                                  int64_t episode) { return EvaluationSeed(self.schedule().seed(), episode); })
       .def("initial_layers",
            [](const Experiment& self) {
-             const MlpShape shape = self.network_shape();
-             return LayersOf(shape, InitialParameters(shape, self.schedule().seed()));
+             return LayersOf(ShapeOf(self), self.network()->InitialParameters(self.schedule().seed()));
            })
       .def("draw_places", DrawPlaces)
       .def("optimum", OptimumOf);
