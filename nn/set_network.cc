@@ -55,6 +55,39 @@ std::vector<Layer> SetLayers(const SetShape& shape) {
   return layers;
 }
 
+// What pooling does with each encoding of one item. Each loop is one that compilers turn into vector
+// instructions.
+
+void TakeLargest(int count, const float* __restrict encoding, int place, float* __restrict maximum,
+                 int* __restrict largest) {
+  for (int i = 0; i < count; ++i) {
+    largest[i] ^= (largest[i] ^ place) & -static_cast<int>(encoding[i] > maximum[i]);
+  }
+  for (int i = 0; i < count; ++i) {
+    maximum[i] = encoding[i] > maximum[i] ? encoding[i] : maximum[i];
+  }
+}
+
+void Divide(int count, int divisor, float* values) {
+  for (int i = 0; i < count && divisor > 0; ++i) {
+    values[i] /= static_cast<float>(divisor);
+  }
+}
+
+void GradientOfPools(int count, const float* __restrict encoding, int place, const int* __restrict largest,
+                     const float* __restrict of_maximum, const float* __restrict of_mean,
+                     float* __restrict gradient) {
+  for (int i = 0; i < count; ++i) {
+    gradient[i] = largest[i] == place ? of_maximum[i] : 0.0f;
+  }
+  for (int i = 0; i < count; ++i) {
+    gradient[i] += of_mean[i];
+  }
+  for (int i = 0; i < count; ++i) {
+    gradient[i] = encoding[i] > 0 ? gradient[i] : 0.0f;
+  }
+}
+
 /// Calls function(block) for columns that go through a chain together.
 template <class Function>
 void ForEachBlock(ColumnRange columns, Function function) {
@@ -289,24 +322,18 @@ void SetNetwork::PlaceItems(int column, Workspace& workspace) const {
 void SetNetwork::Pool(int column, Workspace& workspace) const {
   const int encodings = encoder_.outputs();
   const int present = workspace.present[static_cast<size_t>(column)];
-  float* __restrict maximum = std::copy_n(workspace.observations.col(column).data(), shape_.own_inputs,
-                                          workspace.trunk.front().col(column).data());
-  float* __restrict mean = maximum + encodings;
-  int* __restrict largest = workspace.largest.data() + int64_t{column} * encodings;
+  float* maximum = std::copy_n(workspace.observations.col(column).data(), shape_.own_inputs,
+                               workspace.trunk.front().col(column).data());
+  float* mean = maximum + encodings;
+  int* largest = workspace.largest.data() + int64_t{column} * encodings;
   std::fill_n(maximum, 2 * encodings, 0.0f);
   std::fill_n(largest, encodings, -1);
   for (int place = 0; place < present; ++place) {
-    const float* __restrict encoding = workspace.encoder.back().col(column * shape_.items + place).data();
-    for (int i = 0; i < encodings; ++i) {
-      const bool larger = encoding[i] > maximum[i];
-      maximum[i] = larger ? encoding[i] : maximum[i];
-      largest[i] = larger ? place : largest[i];
-      mean[i] += encoding[i];
-    }
+    const float* encoding = workspace.encoder.back().col(column * shape_.items + place).data();
+    TakeLargest(encodings, encoding, place, maximum, largest);
+    CurrentArithmetic().add_scaled(encodings, 1.0f, encoding, mean);
   }
-  for (int i = 0; i < encodings && present > 0; ++i) {
-    mean[i] /= static_cast<float>(present);
-  }
+  Divide(encodings, present, mean);
 }
 
 /// The head of all items. Its first layer computes the terms of the trunk once for each column, and goes on
@@ -404,24 +431,22 @@ void SetNetwork::Unpool(const OutputGradient& output_gradient, int column, Works
   const int encodings = encoder_.outputs();
   const int present = workspace.present[static_cast<size_t>(column)];
   const int of_head = PlaceOf(output_gradient.units[static_cast<size_t>(column)], column, workspace);
-  const float* __restrict of_maximum =
-      workspace.trunk_gradients.front().col(column).data() + shape_.own_inputs;
-  const float* __restrict of_mean = of_maximum + encodings;
-  const float* __restrict head = workspace.head_gradients.front().col(column).data() + hidden_units();
-  const int* __restrict largest = workspace.largest.data() + int64_t{column} * encodings;
+  const float* of_maximum = workspace.trunk_gradients.front().col(column).data() + shape_.own_inputs;
+  float* of_mean = workspace.trunk_gradients.front().col(column).data() + shape_.own_inputs + encodings;
+  const int* largest = workspace.largest.data() + int64_t{column} * encodings;
+  Divide(encodings, present, of_mean);
   for (int place = 0; place < shape_.items; ++place) {
     const int at = column * shape_.items + place;
-    const float* __restrict encoding = workspace.encoder.back().col(at).data();
-    float* __restrict gradient = workspace.encoder_gradients.back().col(at).data();
+    float* gradient = workspace.encoder_gradients.back().col(at).data();
     if (place >= present) {
       std::fill_n(gradient, encodings, 0.0f);
       continue;
     }
-    const float heads_share = at == of_head ? 1.0f : 0.0f;
-    for (int i = 0; i < encodings; ++i) {
-      const float of_pools =
-          of_mean[i] / static_cast<float>(present) + (largest[i] == place ? of_maximum[i] : 0.0f);
-      gradient[i] = encoding[i] > 0 ? of_pools + heads_share * head[i] : 0.0f;
+    GradientOfPools(encodings, workspace.encoder.back().col(at).data(), place, largest, of_maximum, of_mean,
+                    gradient);
+    if (at == of_head) {
+      CurrentArithmetic().add_scaled(
+          encodings, 1.0f, workspace.head_gradients.front().col(column).data() + hidden_units(), gradient);
     }
   }
 }
