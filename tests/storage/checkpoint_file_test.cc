@@ -26,8 +26,8 @@ class CheckpointFile : public ::testing::Test {
     training.progress = {11, 10, 700, 650, 690, 6, 2, 0.25, 1e-3, 0.5, 12.5, true};
     training.orders = {{{11, OrderKind::kEvaluate, 0, 9, 6, 2}, 640},
                        {{12, OrderKind::kTrain, 0.125, 9, 6, 2}, 650}};
-    training.versions = {{NetworkKind::kCurrent, 6, 600, Shared(1)},
-                         {NetworkKind::kTarget, 2, 600, Shared(2)}};
+    training.versions = {{{NetworkKind::kCurrent, 6}, 600, Shared(1)},
+                         {{NetworkKind::kTarget, 2}, 600, Shared(2)}};
     training.current = Parameters(3);
     training.target = Parameters(4);
     training.adam = {650, 0.5, 0.75, Parameters(5), Parameters(6)};
