@@ -37,9 +37,12 @@ LearnerProcess::LearnerProcess(const Experiment& experiment, Bus& bus, LearnerOp
 bool LearnerProcess::Run() {
   RefuseUsedBus();
   begin_us_ = MonotonicMicroseconds();
-  optimum_.emplace(experiment_.world(),
+  std::vector<uint64_t> seeds = EpisodesToPlan(experiment_);
+  std::vector<std::shared_ptr<const Plan>> known = folder_.ReadOptimum(seeds);
+  optimum_.emplace(experiment_.world(), std::move(seeds),
                    OptimumSearch::Limits{experiment_.run().optimum_limit_s(),
-                                         int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
+                                         int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000},
+                   std::move(known));
   BeginTraining();
   std::jthread network([this](std::stop_token stop) { Serve(std::move(stop)); });
   Train();
@@ -187,6 +190,7 @@ void LearnerProcess::WriteCheckpoint() {
   checkpoint->metrics = folder_.metrics();
   checkpoint->counters = ToMap(node_.counters());
   folder_.WriteCheckpoint(std::move(checkpoint));
+  folder_.WriteOptimum(optimum_->seeds(), optimum_->plans());
   ++checkpoints_.taken;
   checkpoints_.longest_pause_us = std::max(checkpoints_.longest_pause_us, MonotonicMicroseconds() - begin_us);
 }
@@ -213,7 +217,7 @@ void LearnerProcess::WaitForOptimum() {
 }
 
 void LearnerProcess::Report() {
-  node_.Report({trainer_.progress(), trainer_.last_evaluation(), trainer_.best(), optimum_->bound(),
+  node_.Report({trainer_.progress(), trainer_.last_evaluation(), trainer_.best(), optimum_->bounds(),
                 finishing_, folder_.problem()});
 }
 
@@ -223,9 +227,7 @@ double LearnerProcess::WallSeconds() const {
 
 void LearnerProcess::WriteResults() {
   const OptimumResult optimum = optimum_->result();
-  if (optimum.plan != nullptr) {
-    folder_.WriteOptimum(OptimumJson(experiment_.world(), *optimum.plan));
-  }
+  folder_.WriteOptimum(optimum_->seeds(), optimum.plans);
   folder_.WriteFinal(trainer_.current(), trainer_.progress());
   folder_.Finish();
   const ProcessorFigures processor = {ProcessProcessorMicroseconds(), ThreadProcessorMicroseconds(),
@@ -264,7 +266,8 @@ MemoryNeed LearnerMemory(const Experiment& experiment) {
             Ledger::BytesFor(world, MaximumOrdersInFlight(experiment.schedule()))},
            {"world", "the world", world.bytes()},
            {"run.optimum_memory_mb", "the search for the exact optimum",
-            CanPlan(world) && run.optimum_limit_s() > 0 ? run.optimum_memory_mb() * kMega : 0},
+            !EpisodesToPlan(experiment).empty() && run.optimum_limit_s() > 0 ? run.optimum_memory_mb() * kMega
+                                                                             : 0},
            {"", "the program", kProgramBytes}}};
 }
 

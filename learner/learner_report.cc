@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
+#include <span>
 
 namespace fresco {
 
@@ -22,10 +25,36 @@ void TrainingReport::WriteTo(learner_status_t& status) const {
   status.score = last_evaluation ? last_evaluation->score() : kNan;
   status.success = last_evaluation ? last_evaluation->success : 0;
   status.best_score = best && best->evaluation.success > 0 ? best->evaluation.score() : kNan;
-  status.score_bound = optimum ? optimum->lower_bound_average_aoi : kNan;
-  status.optimum_proved = optimum && optimum->proved ? 1 : 0;
-  status.gap_percent =
-      status.optimum_proved != 0 ? GapPercent(status.best_score, optimum->lower_bound_average_aoi) : kNan;
+  status.score_bound = kNan;
+  status.optimum_proved = 0;
+  status.gap_percent = status.gap_median_percent = status.gap_worst_percent = kNan;
+  WriteOptimumTo(status);
+}
+
+void TrainingReport::WriteOptimumTo(learner_status_t& status) const {
+  const size_t episodes = best ? best->evaluation.scores.size() : (optimum.size() == 1 ? 1 : 0);
+  if (episodes == 0 || optimum.size() < episodes) {
+    return;
+  }
+  const auto bounds = std::span(optimum).first(episodes);
+  std::vector<double> least_scores;
+  for (const OptimumBound& bound : bounds) {
+    least_scores.push_back(bound.lower_bound_average_aoi);
+  }
+  if (*std::min_element(least_scores.begin(), least_scores.end()) <= 0) {
+    return;
+  }
+  status.score_bound =
+      std::accumulate(least_scores.begin(), least_scores.end(), 0.0) / static_cast<double>(episodes);
+  status.optimum_proved =
+      std::all_of(bounds.begin(), bounds.end(), [](const OptimumBound& bound) { return bound.proved; }) ? 1
+                                                                                                        : 0;
+  if (status.optimum_proved != 0 && best && best->evaluation.success == 1) {
+    const Gaps gaps = GapsOf(best->evaluation.scores, least_scores);
+    status.gap_percent = gaps.mean;
+    status.gap_median_percent = gaps.median;
+    status.gap_worst_percent = gaps.worst;
+  }
 }
 
 std::optional<std::string> StarvationWarning::Note(double starved_s, const std::string& waiting_for) {

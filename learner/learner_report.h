@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "msgs/wire.h"
 #include "storage/optimum_search.h"
@@ -16,7 +17,7 @@ struct TrainingReport {
   TrainerProgress progress = {};
   std::optional<Evaluation> last_evaluation = {};
   std::optional<BestNetwork> best = {};
-  std::optional<OptimumBound> optimum = {};
+  std::vector<OptimumBound> optimum = {};  ///< by episode of an evaluation; further ones are ignored
   /// What the learner itself is busy with before it ends, in place of an actor; empty: nothing.
   std::string finishing = {};
   /// What somebody has to see to ("the last checkpoint could not be written: ..."); empty: nothing.
@@ -24,6 +25,9 @@ struct TrainingReport {
 
   /// Fills in the fields about progress, evaluations and the optimum.
   void WriteTo(learner_status_t& status) const;
+
+ private:
+  void WriteOptimumTo(learner_status_t& status) const;
 };
 
 /// Decides when a learner that waits for a result writes a line to its log, so that a silent log never means

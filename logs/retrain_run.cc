@@ -165,8 +165,9 @@ std::string RetrainRun::Train(const std::filesystem::path& directory) {
   RunFolder::Make(directory);
   const FolderLock lock(directory);
   folder_.emplace(directory, experiment_);
-  OptimumSearch optimum(experiment_.world(), {experiment_.run().optimum_limit_s(),
-                                              int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
+  OptimumSearch optimum(
+      experiment_.world(), EpisodesToPlan(experiment_),
+      {experiment_.run().optimum_limit_s(), int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
   LiveLine line(true);
   while (!StopSignal::Requested() && retraining_->Step()) {
     line.Show(
@@ -184,9 +185,7 @@ std::string RetrainRun::Train(const std::filesystem::path& directory) {
 
 std::string RetrainRun::Results(double wall_s, const OptimumResult& optimum) {
   const Trainer& trainer = retraining_->trainer();
-  if (optimum.plan != nullptr) {
-    folder_->WriteOptimum(OptimumJson(experiment_.world(), *optimum.plan));
-  }
+  folder_->WriteOptimum(EpisodesToPlan(experiment_), optimum.plans);
   folder_->WriteFinal(trainer.current(), trainer.progress());
   folder_->Finish();
   const std::string summary = WithRetrainReport(

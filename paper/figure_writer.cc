@@ -204,7 +204,7 @@ class FigureWriter {
     StudyResult result;
     result.aoi_based = result_of(FlyBaseline(world, BaselineKind::kAoi));
     result.distance_based = result_of(FlyBaseline(world, BaselineKind::kDistance));
-    const Plan plan = PlanWithin(world, {});
+    const Plan plan = PlanWithin(world, 0, {});
     if (plan.optimal) {
       result.optimal = result_of(plan.flight);
     }

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "planner/label_search.h"
 #include "worlds/uav/baselines.h"
+#include "worlds/uav/uav_fields.h"
 
 namespace fresco {
 namespace {
@@ -131,11 +132,17 @@ Plan Planner::Run() {
 }  // namespace
 
 bool CanPlan(const World& world) {
-  return AsUavWorld(world) != nullptr;
+  return AsUavWorld(world) != nullptr || AsUavFields(world) != nullptr;
 }
 
-Plan PlanOptimally(const World& world, const PlannerOptions& options) {
+Plan PlanOptimally(const World& world, uint64_t seed, const PlannerOptions& options) {
   FRESCO_CHECK(CanPlan(world));
+  if (const UavFields* fields = AsUavFields(world)) {
+    const auto field = fields->WorldOf(seed);
+    Plan plan = Planner(*field, options).Run();
+    plan.flight = fields->FromItsField(*field, seed, plan.flight);
+    return plan;
+  }
   return Planner(*AsUavWorld(world), options).Run();
 }
 

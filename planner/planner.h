@@ -58,11 +58,11 @@ struct Plan {
   int64_t labels = 0;  ///< labels kept, over all passes of the search
 };
 
-/// Whether the planner knows this kind of world: only the UAV's.
+/// Whether the planner knows this kind of world: the UAV's, also with a new field in every episode.
 bool CanPlan(const World& world);
 
-/// Plans the best flight in `world`, whose constructor has made sure that a flight exists. CHECKs that it
-/// can.
-Plan PlanOptimally(const World& world, const PlannerOptions& options = {});
+/// Plans the best flight of the episode with this seed; the world's constructor has made sure that a flight
+/// exists. The seed decides nothing if every episode has the same field. CHECKs that it can.
+Plan PlanOptimally(const World& world, uint64_t seed, const PlannerOptions& options = {});
 
 }  // namespace fresco

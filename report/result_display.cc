@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -36,7 +38,10 @@ std::string GreedyScore(const learner_status_t& status, const WorldDescription& 
   }
   text += fmt::format(", best {:.3f} ", status.best_score);
   return text + (status.optimum_proved != 0
-                     ? fmt::format("({:.2f} % over the optimum)", status.gap_percent)
+                     ? fmt::format("({:.2f} % over the optimum{})", status.gap_percent,
+                                   status.gap_worst_percent > status.gap_percent
+                                       ? fmt::format(", worst {:.1f} %", status.gap_worst_percent)
+                                       : "")
                      : fmt::format("(optimum not proved, at least {:.3f})", status.score_bound));
 }
 
@@ -81,18 +86,33 @@ TableRow FiguresRow(const std::string& title, const Json& figures, const Json& s
   const std::string success = summary.at("world").at("success");
   const bool succeeded = figures.value(prefix.empty() ? success : "", true);
   if (has_gap) {
-    const Json& optimal = summary.at("optimal_" + names.front());
-    std::string gap = succeeded && SearchedFor(summary) ? kNotProved : "-";
-    if (succeeded && !optimal.is_null()) {
-      gap = fmt::format("{:.2f} %",
-                        GapPercent(figures.at(prefix + names.front()).get<double>(), optimal.get<double>()));
-    }
-    row.push_back(gap);
+    const bool proved = !summary.at("optimal_" + names.front()).is_null();
+    const Json gap = prefix.empty() ? figures.value("gap_percent", Json()) : (proved ? Json(0.0) : Json());
+    const char* none = succeeded && SearchedFor(summary) && !proved ? kNotProved : "-";
+    row.push_back(gap.is_null() ? none : fmt::format("{:.2f} %", gap.get<double>()));
   }
   const double share = figures.value(prefix.empty() ? "success" : "", succeeded ? 1.0 : 0.0);
   row.push_back(succeeded ? "yes" : (share > 0 ? PercentText(share) : "NO"));
   return row;
 }
+
+/// Scores of some episodes, and their optimum.
+struct GroupGaps {
+  std::vector<double> scores;
+  std::vector<double> baselines;  // of the better baseline; infinite if there is none
+  std::vector<double> optima;
+
+  TableRow Row(const std::string& name) const {
+    const Gaps gaps = GapsOf(scores, optima);
+    const double baseline = GapsOf(baselines, optima).mean;
+    return {name,
+            std::to_string(scores.size()),
+            fmt::format("{:.2f} %", gaps.mean),
+            fmt::format("{:.2f} %", gaps.median),
+            fmt::format("{:.2f} %", gaps.worst),
+            std::isfinite(baseline) ? fmt::format("{:.2f} %", baseline) : "-"};
+  }
+};
 
 OrderedJson ValueJson(const AccountValue& value) {
   return std::visit(
@@ -174,7 +194,7 @@ std::string ProgressLine(const learner_status_t& status, const WorldDescription&
                                                   : " | learner waits for " + status.waiting_for);
 }
 
-std::vector<TableRow> PolicyRows(const std::string& summary_json) {
+std::vector<TableRow> PolicyRows(const std::string& summary_json, const std::string& title) {
   const Json summary = Json::parse(summary_json);
   const std::vector<std::string> names = FigureNames(summary);
   TableRow header = {"policy"};
@@ -183,7 +203,7 @@ std::vector<TableRow> PolicyRows(const std::string& summary_json) {
     header.push_back("gap");
   }
   header.push_back(Title(summary.at("world").at("success")));
-  std::vector<TableRow> rows = {header, FiguresRow("this run (DQN)", summary, summary)};
+  std::vector<TableRow> rows = {header, FiguresRow(title, summary, summary)};
   for (const Json& baseline : summary.value("baselines", Json::object())) {
     rows.push_back(FiguresRow(baseline.at("title"), baseline, summary));
   }
@@ -191,6 +211,41 @@ std::vector<TableRow> PolicyRows(const std::string& summary_json) {
     const bool proved = !summary.at("optimal_" + names.front()).is_null();
     rows.push_back(FiguresRow(FoundFlightName(proved), summary, summary, "best_found_"));
   }
+  return rows;
+}
+
+std::vector<TableRow> GapRows(const std::string& summary_json) {
+  const Json summary = Json::parse(summary_json);
+  const std::string score = summary.at("world").at("figures").front().at("name");
+  std::map<std::pair<size_t, std::string>, GroupGaps>
+      groups;  // shorter names first, so "2 ..." before "10 ..."
+  GroupGaps all;
+  for (const Json& episode : summary.value("judged_episodes", Json::array())) {
+    if (episode.at("gap_percent").is_null()) {
+      continue;
+    }
+    const std::string group = episode.value("group", "");
+    const double optimal = episode.at("optimal_" + score);
+    double baseline = std::numeric_limits<double>::infinity();
+    for (const Json& reached : episode.value("baselines", Json::object())) {
+      baseline = std::min(baseline, reached.get<double>());
+    }
+    for (GroupGaps* gaps : {&groups[{group.size(), group}], &all}) {
+      gaps->scores.push_back(episode.at(score));
+      gaps->baselines.push_back(baseline);
+      gaps->optima.push_back(optimal);
+    }
+  }
+  if (all.scores.empty()) {
+    return {};
+  }
+  std::vector<TableRow> rows = {{"episodes with", "number", "gap", "median", "worst", "better baseline"}};
+  for (const auto& [key, gaps] : groups) {
+    if (groups.size() > 1) {
+      rows.push_back(gaps.Row(key.second));
+    }
+  }
+  rows.push_back(all.Row("all"));
   return rows;
 }
 
@@ -204,12 +259,21 @@ std::string OptimumNote(const std::string& summary_json) {
     return "";
   }
   const std::string name = FigureNames(summary).front();
+  const Json episodes = summary.value("judged_episodes", Json::array());
+  const auto unproved = std::count_if(episodes.begin(), episodes.end(), [](const Json& episode) {
+    return episode.at("gap_percent").is_null();
+  });
+  std::string note = fmt::format("The exact optimum{} is not proved: the search {}",
+                                 episodes.empty() ? "" : fmt::format(" of {} episodes", unproved),
+                                 end == SearchEndName(SearchEnd::kStopped)
+                                     ? "was stopped"
+                                     : "reached run.optimum_limit_s or run.optimum_memory_mb");
+  if (summary.at("lower_bound_" + name).is_null()) {
+    return note + ".";
+  }
   const double bound = summary.at("lower_bound_" + name);
-  std::string note = fmt::format(
-      "The exact optimum is not proved: the search {}. No flight has an {} below {:.3f}",
-      end == SearchEndName(SearchEnd::kStopped) ? "was stopped"
-                                                : "reached run.optimum_limit_s or run.optimum_memory_mb",
-      Title(name), bound);
+  note += fmt::format(". No {} has an {} below {:.3f}", episodes.empty() ? "flight" : "policy", Title(name),
+                      bound);
   if (summary.value("success", Json()) == 1) {
     note +=
         fmt::format("; this run lies above the optimum by at most {:.2f} %, which is a bound and not the gap",
@@ -218,16 +282,20 @@ std::string OptimumNote(const std::string& summary_json) {
   return note + ".";
 }
 
-std::string ResultTable(const std::string& summary_json) {
-  const std::vector<TableRow> rows = PolicyRows(summary_json);
+std::string ResultTable(const std::string& summary_json, const std::string& title) {
+  const std::vector<TableRow> rows = PolicyRows(summary_json, title);
   const size_t columns = rows.front().size();
   std::vector<size_t> widths(columns, 10);
   widths.front() = 16;
   std::vector<bool> at_right(columns, true);
   at_right.front() = at_right.back() = false;
-  const std::string table = AlignedTable(rows, widths, at_right, "  ");
+  std::string table = AlignedTable(rows, widths, at_right, "  ");
   const std::string note = OptimumNote(summary_json);
-  return note.empty() ? table : table + note + "\n";
+  table += note.empty() ? "" : note + "\n";
+  if (const std::vector<TableRow> gaps = GapRows(summary_json); !gaps.empty()) {
+    table += "\n" + AlignedTable(gaps, {16, 10, 10, 10, 10, 10}, {false, true, true, true, true, true}, "  ");
+  }
+  return table;
 }
 
 std::string EpisodeJson(const EpisodeAccount& account, const std::string& policy,

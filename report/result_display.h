@@ -21,14 +21,21 @@ std::string ProgressLine(const learner_status_t& status, const WorldDescription&
 /// columns are the policy, the first two figures of the world, the gap and the success; what a world does not
 /// have (baselines, an optimum and a gap) is left out. If the optimum is not proved, the last row is the best
 /// flight that the search found, and no row has a gap.
-std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json);
+/// The first row is of the policy `title`.
+std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json,
+                                                 const std::string& title = "this run (DQN)");
+
+/// Returns a heading and a row for each group of judged episodes, then one for all of them: how many they
+/// are, the mean, median and worst gap, and the mean gap of the better baseline of each episode. Empty if no
+/// episode has a gap.
+std::vector<std::vector<std::string>> GapRows(const std::string& summary_json);
 
 /// If there was a search and the optimum is not proved, returns a note: why not, what is proved instead, and
 /// what that means for this run. Otherwise returns "".
 std::string OptimumNote(const std::string& summary_json);
 
-/// Returns the final table of a run, followed by the note, from a summary's JSON.
-std::string ResultTable(const std::string& summary_json);
+/// Returns the final table of a run, followed by the note and by the table of gaps, from a summary's JSON.
+std::string ResultTable(const std::string& summary_json, const std::string& title = "this run (DQN)");
 
 /// Returns a share, 0 to 1, in whole percent: "37 %". It has more digits where "0 %" or "100 %" would be
 /// untrue.

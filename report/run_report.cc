@@ -13,6 +13,7 @@
 #include "report/drawings.h"
 #include "report/result_display.h"
 #include "storage/network_file.h"
+#include "storage/plans.h"
 #include "storage/policy.h"
 #include "training/flyer.h"
 
@@ -37,15 +38,6 @@ size_t ColumnOf(const std::vector<std::string>& header, const std::string& name,
     throw UsageError(fmt::format("{}: expected a column {}, found none", file.string(), name));
   }
   return static_cast<size_t>(found - header.begin());
-}
-
-/// The best episode that the search found, from its actions in optimum.json.
-Episode EpisodeOfOptimum(const World& world, const Json& optimum, const Path& file) {
-  Episode episode;
-  if (!FlyActions(world, 0, optimum.at("actions").get<std::vector<int16_t>>(), episode)) {
-    throw Failure(file.string() + ": its actions are no episode of this run's world");
-  }
-  return episode;
 }
 
 std::string Label(const Quantity& quantity) {
@@ -111,14 +103,12 @@ std::vector<ReportEpisode> FinishedRun::FlyEpisodes() const {
     episodes.push_back(
         {"this run (DQN)", FlyGreedily(experiment_, 0, std::make_shared<const Vector>(network.parameters))});
   }
-  if (std::filesystem::exists(folder_ / "optimum.json")) {
-    const Path file = folder_ / "optimum.json";
-    const Json optimum = Json::parse(ReadFile(file));
-    episodes.push_back(
-        {FoundFlightName(optimum.at("optimal").get<bool>()), EpisodeOfOptimum(world(), optimum, file)});
+  const std::vector<uint64_t> seeds = {0};
+  if (const std::shared_ptr<const Plan> plan = PlansIn(folder_, world(), seeds).front(); plan != nullptr) {
+    episodes.push_back({FoundFlightName(plan->optimal), plan->flight});
   }
   for (const ReferencePolicy& policy : world().reference_policies()) {
-    episodes.push_back({policy.title, world().FlyReference(policy.name)});
+    episodes.push_back({policy.title, world().FlyReference(policy.name, 0)});
   }
   return episodes;
 }
@@ -128,7 +118,9 @@ void FinishedRun::ReadLearningCurve() {
   const std::string& score_name = description.figures.front().name;
   learning_curve_.title = "Greedy episodes during the training";
   learning_curve_.world = description;
-  const Json optimal = Json::parse(summary_).value("optimal_" + score_name, Json());
+  const Json summary = Json::parse(summary_);
+  const Json optimal =
+      summary.value("evaluations_optimal_" + score_name, summary.value("optimal_" + score_name, Json()));
   if (!optimal.is_null()) {
     learning_curve_.optimum_score = optimal.get<double>();
   }
@@ -163,6 +155,64 @@ ReportTable PolicyTable(const std::string& summary_json) {
   return table;
 }
 
+LinePlot GapPlot(const std::string& summary_json) {
+  const Json summary = Json::parse(summary_json);
+  const std::string score = summary.at("world").at("figures").front().at("name");
+  std::vector<double> gaps;
+  std::vector<double> baselines;
+  for (const Json& episode : summary.at("judged_episodes")) {
+    if (episode.at("gap_percent").is_null()) {
+      continue;
+    }
+    gaps.push_back(episode.at("gap_percent"));
+    std::vector<double> reached;
+    for (const Json& baseline : episode.value("baselines", Json::object())) {
+      reached.push_back(GapPercent(baseline.get<double>(), episode.at("optimal_" + score).get<double>()));
+    }
+    if (!reached.empty()) {
+      baselines.push_back(*std::min_element(reached.begin(), reached.end()));
+    }
+  }
+  LinePlot plot{.title = "Gap to the exact optimum of each judged episode",
+                .x_label = "share of the episodes with at most this gap [%]",
+                .y_label = "gap [%]"};
+  const auto add = [&](const std::string& name, CurveRole role, std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    Curve curve{.name = name, .role = role, .shape = CurveShape::kLine};
+    for (size_t i = 0; i < values.size(); ++i) {
+      curve.x.push_back(100.0 * static_cast<double>(i + 1) / static_cast<double>(values.size()));
+    }
+    curve.y = std::move(values);
+    plot.curves.push_back(std::move(curve));
+  };
+  if (!baselines.empty()) {
+    add("better baseline", CurveRole::kAoiBased, baselines);
+  }
+  add("this run (DQN)", CurveRole::kDqn, gaps);
+  plot.least_y = 0;
+  return plot;
+}
+
+namespace {
+
+/// Adds what is known of the gaps of single episodes.
+void AddGaps(const std::string& summary_json, const Path& folder, ReportContents& contents) {
+  const std::vector<std::vector<std::string>> rows = GapRows(summary_json);
+  if (rows.empty()) {
+    return;
+  }
+  contents.tables.push_back({"Gap to the exact optimum", rows.front(), {rows.begin() + 1, rows.end()}});
+  try {
+    contents.figures.push_back(WriteFigure(DrawLinePlot(GapPlot(summary_json)), folder / "gaps",
+                                           "Distribution of the gap",
+                                           "The judged episodes, sorted by their gap to the exact optimum."));
+  } catch (const Error& error) {
+    spdlog::warn("report.html has no picture of the gaps: {}", error.what());
+  }
+}
+
+}  // namespace
+
 void WriteRunReport(const Path& folder) {
   const FinishedRun run(folder);
   const Json summary = Json::parse(run.summary());
@@ -188,6 +238,7 @@ void WriteRunReport(const Path& folder) {
       spdlog::warn("report.html has no learning curve: {}", error.what());
     }
   }
+  AddGaps(run.summary(), folder, contents);
   if (DrawingOf(run.world()) != nullptr) {
     contents.episodes = run.FlyEpisodes();
     contents.world = &run.world();

@@ -71,7 +71,12 @@ ReportFigure WriteFigure(const Picture& picture, const std::filesystem::path& st
 /// Returns the table of a run's policies (PolicyRows in result_display.h) for a report.
 ReportTable PolicyTable(const std::string& summary_json);
 
-/// Writes report.html, and the learning curve as SVG and PNG, to a run's folder. If gnuplot is missing or
+/// The plot shows the gaps of the judged episodes of a summary (JudgementJson in storage/judgement.h) that
+/// have one, sorted, for this run and for the better baseline of each episode. At least one episode must have
+/// a gap.
+LinePlot GapPlot(const std::string& summary_json);
+
+/// Writes report.html, and its figures as SVG and PNG, to a run's folder. If gnuplot is missing or
 /// fails, the page has no curve, and a warning is logged.
 void WriteRunReport(const std::filesystem::path& folder);
 

@@ -17,7 +17,7 @@ namespace fresco {
 namespace {
 
 constexpr char kCheckpointFamily[] = "fresco-checkpoint-";
-constexpr char kCheckpointFormat[] = "fresco-checkpoint-3";
+constexpr char kCheckpointFormat[] = "fresco-checkpoint-4";
 
 /// Returns the checkpoint in the file after checking its format and CRC.
 proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {
@@ -50,6 +50,7 @@ void ToProto(const Evaluation& from, proto::CheckpointEvaluation& to) {
   to.set_episodes(from.episodes);
   to.set_success(from.success);
   to.mutable_figures()->Add(from.figures.begin(), from.figures.end());
+  to.mutable_scores()->Add(from.scores.begin(), from.scores.end());
 }
 
 Evaluation FromProto(const proto::CheckpointEvaluation& from) {
@@ -57,7 +58,8 @@ Evaluation FromProto(const proto::CheckpointEvaluation& from) {
           from.updates(),
           from.episodes(),
           from.success(),
-          {from.figures().begin(), from.figures().end()}};
+          {from.figures().begin(), from.figures().end()},
+          {from.scores().begin(), from.scores().end()}};
 }
 
 template <class Value>
@@ -198,6 +200,8 @@ void WriteTrainingState(const TrainingState& from, bool repeatable, proto::Check
     partial.set_successes(from.partial_evaluation.successes);
     partial.mutable_figures()->Add(from.partial_evaluation.figures.begin(),
                                    from.partial_evaluation.figures.end());
+    partial.mutable_scores()->Add(from.partial_evaluation.scores.begin(),
+                                  from.partial_evaluation.scores.end());
   }
   if (from.last_evaluation) {
     ToProto(*from.last_evaluation, *to.mutable_last_evaluation());
@@ -237,8 +241,10 @@ TrainingState ReadTrainingState(const proto::Checkpoint& from, const Experiment&
   }
   if (from.has_partial_evaluation()) {
     const proto::CheckpointPartialEvaluation& partial = from.partial_evaluation();
-    to.partial_evaluation = {
-        partial.episodes(), partial.successes(), {partial.figures().begin(), partial.figures().end()}};
+    to.partial_evaluation = {partial.episodes(),
+                             partial.successes(),
+                             {partial.figures().begin(), partial.figures().end()},
+                             {partial.scores().begin(), partial.scores().end()}};
   }
   if (from.has_last_evaluation()) {
     to.last_evaluation = FromProto(from.last_evaluation());

@@ -17,6 +17,7 @@
 #include "nn/arithmetic_option.h"
 #include "storage/checkpoint_file.h"
 #include "storage/run_folder.h"
+#include "training/beam_search.h"
 #include "training/flyer.h"
 
 namespace fresco {
@@ -108,18 +109,28 @@ Experiment GivenExperiment(const PolicyChoice& choice) {
                           ParseSettings(choice.settings));
 }
 
-/// Returns the experiment to fly in: that of --config if it is given, otherwise that of the network. Throws
-/// UsageError if the network does not fit it.
+/// Returns the experiment to fly in: the world of --config if it is given, otherwise that of the network; the
+/// agent is always that of the network. Throws UsageError if the network was not made for that world.
 Experiment ExperimentOfNetwork(const PolicyChoice& choice, const StoredNetwork& network) {
+  const Settings settings = ParseSettings(choice.settings);
   if (choice.config.empty()) {
-    return Experiment::Parse(network.experiment.Text(), choice.policy, ParseSettings(choice.settings));
+    return Experiment::Parse(network.experiment.Text(), choice.policy, settings);
   }
-  Experiment given = GivenExperiment(choice);
-  if (given.network()->layer_sizes() != network.experiment.network()->layer_sizes()) {
+  const Experiment given = GivenExperiment(choice);
+  proto::ExperimentConfig config = given.config();
+  *config.mutable_agent() = network.experiment.agent();
+  Experiment experiment = Experiment::Make(config, choice.config);
+  if (experiment.network()->layer_sizes() != network.experiment.network()->layer_sizes()) {
     throw UsageError(fmt::format("{}: its network (inputs, hidden layers, actions) is not that of {}",
                                  choice.config, choice.policy));
   }
-  return given;
+  try {
+    network.experiment.world().CheckServes(experiment.world());
+  } catch (const Error& error) {
+    throw UsageError(fmt::format("{}: the policy {} was not trained for such an episode: {}", choice.config,
+                                 choice.policy, error.what()));
+  }
+  return experiment;
 }
 
 }  // namespace
@@ -131,6 +142,11 @@ void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
   app.add_option("--policy", choice.policy,
                  std::string(kPolicyFiles) + "; in the UAV's world also aoi, distance or optimal")
       ->required();
+  app.add_option(
+         "--search", choice.search_width,
+         "For a trained policy: search for the best episode with the network's values, and keep so many "
+         "partial episodes side by side; default: act greedily")
+      ->check(CLI::Range(1, 4096));
   app.add_option("--time-limit-s", choice.limits.seconds,
                  "For the policy optimal: stop the search after so many seconds; default: no limit")
       ->check(CLI::Range(0.001, 1e6));
@@ -154,19 +170,26 @@ ChosenPolicy ReadChoice(const PolicyChoice& choice) {
   }
   StoredNetwork network = ReadPolicy(choice.policy, built_in);
   Experiment experiment = ExperimentOfNetwork(choice, network);
+  if (choice.search_width > 0 && !experiment.world().description().copies) {
+    throw UsageError(
+        fmt::format("--search: the world {} can't be searched, since its environments can't be copied",
+                    experiment.world().description().name));
+  }
   return {std::move(experiment), std::move(network)};
 }
 
 FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen, uint64_t seed) {
   if (chosen.network) {
     const auto parameters = std::make_shared<const Vector>(chosen.network->parameters);
-    return {chosen.experiment, FlyGreedily(chosen.experiment, seed, parameters)};
+    return {chosen.experiment, choice.search_width > 0
+                                   ? FlySearching(chosen.experiment, seed, parameters, choice.search_width)
+                                   : FlyGreedily(chosen.experiment, seed, parameters)};
   }
   if (choice.policy == kOptimalPolicy) {
-    Plan plan = PlanWithin(chosen.experiment.world(), choice.limits);
+    Plan plan = PlanWithin(chosen.experiment.world(), seed, choice.limits);
     return {chosen.experiment, plan.flight, plan};
   }
-  return {chosen.experiment, chosen.experiment.world().FlyReference(choice.policy)};
+  return {chosen.experiment, chosen.experiment.world().FlyReference(choice.policy, seed)};
 }
 
 std::string FoundFlightName(bool proved) {
@@ -181,7 +204,7 @@ std::string EpisodeSummary(const FlownPolicy& flown, const std::string& policy) 
   return EpisodeName(flown, policy) + ": " + flown.world().Tell(flown.episode).sentence;
 }
 
-Plan PlanWithin(const World& world, const PlannerLimits& limits) {
+Plan PlanWithin(const World& world, uint64_t seed, const PlannerLimits& limits) {
   constexpr double kSilentS = 1;  // show no progress before; most searches end earlier
   const int64_t begin_us = MonotonicMicroseconds();
   LiveLine line(limits.show_progress);
@@ -194,7 +217,7 @@ Plan PlanWithin(const World& world, const PlannerLimits& limits) {
     }
     return !StopSignal::Requested() && (limits.seconds <= 0 || passed_s < limits.seconds);
   };
-  return PlanOptimally(world, options);
+  return PlanOptimally(world, seed, options);
 }
 
 }  // namespace fresco

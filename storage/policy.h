@@ -30,11 +30,12 @@ struct PolicyChoice {
                                       ///< kDefaultExperiment
   std::vector<std::string> settings;  ///< path=value, applied to the configuration
   std::string policy;
+  int search_width = 0;  ///< 0: a network acts greedily; otherwise its values guide a search (BeamSearch)
   PlannerLimits limits;
 };
 
-/// Adds --config, --set, --policy, --time-limit-s and --memory-limit-mb, whose values parsing writes to
-/// `choice`.
+/// Adds --config, --set, --policy, --search, --time-limit-s and --memory-limit-mb, whose values parsing
+/// writes to `choice`.
 void AddPolicyOptions(CLI::App& app, PolicyChoice& choice);
 
 /// A policy and the experiment in whose world it acts, read and checked.
@@ -72,6 +73,6 @@ std::string EpisodeSummary(const FlownPolicy& flown, const std::string& policy);
 
 /// Searches for the exact optimum until it is proved, a limit is reached or the program is asked to stop.
 /// Returns the best flight found. CHECKs CanPlan.
-Plan PlanWithin(const World& world, const PlannerLimits& limits);
+Plan PlanWithin(const World& world, uint64_t seed, const PlannerLimits& limits);
 
 }  // namespace fresco

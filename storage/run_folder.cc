@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
 #include <system_error>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "storage/network_file.h"
+#include "storage/plans.h"
 
 namespace fresco {
 namespace {
@@ -116,8 +118,26 @@ void RunFolder::WriteSummary(const std::string& json) {
   WriteFileAtomically(directory_ / "summary.json", json + "\n");
 }
 
-void RunFolder::WriteOptimum(const std::string& json) {
-  WriteFileAtomically(directory_ / "optimum.json", json + "\n");
+void RunFolder::WriteOptimum(std::vector<uint64_t> seeds, std::vector<std::shared_ptr<const Plan>> plans) {
+  if (std::all_of(plans.begin(), plans.end(), [](const auto& plan) { return plan == nullptr; })) {
+    return;
+  }
+  writer_.Write({"optimum",
+                 directory_ / kOptimumFile,
+                 [this, seeds = std::move(seeds), plans = std::move(plans)] {
+                   return OptimumJson(experiment_.world(), seeds, plans) + "\n";
+                 },
+                 {}});
+}
+
+std::vector<std::shared_ptr<const Plan>> RunFolder::ReadOptimum(std::span<const uint64_t> seeds) const {
+  std::vector<std::shared_ptr<const Plan>> plans = PlansIn(directory_, experiment_.world(), seeds);
+  for (std::shared_ptr<const Plan>& plan : plans) {
+    if (plan != nullptr && !plan->optimal) {
+      plan = nullptr;
+    }
+  }
+  return plans;
 }
 
 std::string NewestRunHint(const std::filesystem::path& folder, const std::string& file) {

@@ -6,9 +6,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "msgs/experiment.h"
+#include "planner/planner.h"
 #include "storage/checkpoint_folder.h"
 #include "storage/file_writer.h"
 #include "training/training_state.h"
@@ -39,10 +43,16 @@ class RunFolder {
   void AddMetrics(const Evaluation& evaluation, const TrainerProgress& progress, double wall_s);
   void WriteBest(const BestNetwork& best);
   void WriteCheckpoint(std::shared_ptr<const Checkpoint> checkpoint);
+  /// Writes optimum.json, unless there is no plan (plans.h).
+  void WriteOptimum(std::vector<uint64_t> seeds, std::vector<std::shared_ptr<const Plan>> plans);
   /// Whether the last checkpoint waits or is being written.
   bool CheckpointIsBusy() const { return writer_.IsBusy(kCheckpoint); }
   /// Which file can't be written at present, and why; empty if there is none.
   std::string problem() const { return writer_.problem(); }
+
+  /// The proved plans of these episodes that optimum.json already has, by episode; null where it has none.
+  /// Reads the file, and logs a warning if it can't be used.
+  std::vector<std::shared_ptr<const Plan>> ReadOptimum(std::span<const uint64_t> seeds) const;
 
   /// The text of metrics.csv so far. RestoreMetrics sets it when a run is resumed.
   const std::string& metrics() const { return metrics_; }
@@ -53,7 +63,6 @@ class RunFolder {
   void Finish() { writer_.Finish(); }
   void WriteFinal(const Vector& parameters, const TrainerProgress& progress);
   void WriteSummary(const std::string& json);
-  void WriteOptimum(const std::string& json);
 
  private:
   static constexpr char kCheckpoint[] = "checkpoint";

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/bytes.h"
 #include "core/identifier.h"
 #include "core/installation.h"
+#include "storage/judgement.h"
+#include "training/schedules.h"
 
 namespace fresco {
 namespace {
@@ -36,48 +37,6 @@ constexpr BusCounterField kBusCounterFields[] = {
     {"weights_chunks_sent", &BusCounters::weights_chunks_sent},
     {"weights_chunks_repeated", &BusCounters::weights_chunks_repeated},
 };
-
-/// The number, as a whole one if it is.
-OrderedJson Number(double value) {
-  constexpr double kLargestWhole = 1e15;
-  const bool whole = std::abs(value) < kLargestWhole && value == std::trunc(value);
-  return whole ? OrderedJson(static_cast<int64_t>(value)) : OrderedJson(value);
-}
-
-std::vector<double> FiguresOf(const World& world, const Episode& episode) {
-  std::vector<double> figures(world.description().figures.size());
-  world.Judge(episode, figures);
-  return figures;
-}
-
-/// Adds each figure under its name with the prefix; null without figures.
-void AddFigures(const World& world, const std::string& prefix, const std::vector<double>* figures,
-                OrderedJson& json) {
-  for (size_t i = 0; i < world.description().figures.size(); ++i) {
-    json[prefix + world.description().figures[i].name] =
-        figures == nullptr ? OrderedJson() : Number((*figures)[i]);
-  }
-}
-
-OrderedJson WorldJson(const WorldDescription& description) {
-  OrderedJson json = {{"name", description.name}, {"success", description.success}};
-  for (const Quantity& figure : description.figures) {
-    json["figures"].push_back({{"name", figure.name}, {"unit", figure.unit}});
-  }
-  return json;
-}
-
-OrderedJson Baselines(const World& world) {
-  OrderedJson json = OrderedJson::object();
-  for (const ReferencePolicy& policy : world.reference_policies()) {
-    const Episode episode = world.FlyReference(policy.name);
-    const std::vector<double> figures = FiguresOf(world, episode);
-    OrderedJson& baseline = json[policy.name] = {{"title", policy.title}};
-    AddFigures(world, "", &figures, baseline);
-    baseline[world.description().success] = world.Succeeded(episode);
-  }
-  return json;
-}
 
 OrderedJson Counters(const BusCounters& counters) {
   OrderedJson json;
@@ -116,30 +75,36 @@ const Evaluation* JudgedBy(const Trainer& trainer) {
   return trainer.best() ? &trainer.best()->evaluation : nullptr;
 }
 
-void AddPolicy(const World& world, const Evaluation* evaluation, OrderedJson& json) {
-  const auto value = [&](auto figure) {
-    return evaluation ? OrderedJson(figure(*evaluation)) : OrderedJson();
-  };
-  json["score"] = value([](const Evaluation& e) { return Number(e.score()); });
-  json["success"] = value([](const Evaluation& e) { return Number(e.success); });
-  AddFigures(world, "", evaluation ? &evaluation->figures : nullptr, json);
-  json[world.description().success] = value([](const Evaluation& e) { return e.success == 1; });
+/// The mean of what the planner proved of the episodes of fixed evaluations, which the learning curve shows;
+/// null if it is not proved for each of them.
+OrderedJson OptimumOfEvaluations(const SummaryInputs& inputs) {
+  const auto count = static_cast<size_t>(inputs.experiment.schedule().evaluation_episodes());
+  double sum = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const Plan* plan = i < inputs.optimum.plans.size() ? inputs.optimum.plans[i].get() : nullptr;
+    if (plan == nullptr || !plan->optimal) {
+      return {};
+    }
+    sum += plan->lower_bound_average_aoi;
+  }
+  return sum / static_cast<double>(count);
 }
 
-void AddOptimum(const SummaryInputs& inputs, OrderedJson& json) {
+/// What is known of the policy beside others, in the episodes by which it is judged.
+OrderedJson JudgementOf(const SummaryInputs& inputs) {
+  const proto::Schedule& schedule = inputs.experiment.schedule();
   const World& world = inputs.experiment.world();
-  const std::string& score = world.description().figures.front().name;
-  const Plan* plan = inputs.optimum.plan.get();
-  const Evaluation* evaluation = JudgedBy(inputs.trainer);
-  const bool proved = plan != nullptr && plan->optimal;
-  const std::vector<double> found = plan == nullptr ? std::vector<double>() : FiguresOf(world, plan->flight);
-  json["optimum_search"] = SearchEndName(inputs.optimum.end);
-  AddFigures(world, "optimal_", proved ? &found : nullptr, json);
-  AddFigures(world, "best_found_", plan != nullptr ? &found : nullptr, json);
-  json["lower_bound_" + score] = plan != nullptr ? Number(plan->lower_bound_average_aoi) : OrderedJson();
-  const bool has_gap = proved && evaluation != nullptr && evaluation->success == 1;
-  json["gap_percent"] =
-      has_gap ? OrderedJson(GapPercent(evaluation->score(), plan->lower_bound_average_aoi)) : OrderedJson();
+  const bool fixed = schedule.fixed_evaluation_episodes() && world.description().random;
+  const bool delivered = inputs.trainer.delivered().has_value();
+  std::vector<uint64_t> seeds =
+      fixed && delivered ? FixedDeliverySeeds(schedule) : FixedEvaluationSeeds(schedule);
+  std::span<const std::shared_ptr<const Plan>> plans = inputs.optimum.plans;
+  if (!world.description().random) {
+    seeds = {0};
+  } else if (!plans.empty()) {
+    plans = plans.subspan(delivered ? seeds.size() : 0, seeds.size());
+  }
+  return OrderedJson::parse(JudgementJson({world, seeds, JudgedBy(inputs.trainer), plans}));
 }
 
 }  // namespace
@@ -168,17 +133,6 @@ bool IsFinished(const std::string& summary_json) {
              SearchEndName(SearchEnd::kStopped);
 }
 
-std::string OptimumJson(const World& world, const Plan& plan) {
-  const std::vector<double> figures = FiguresOf(world, plan.flight);
-  OrderedJson json = {{"optimal", plan.optimal}};
-  AddFigures(world, "", &figures, json);
-  json["lower_bound_total_aoi"] = plan.lower_bound_total_aoi;
-  json["lower_bound_average_aoi"] = plan.lower_bound_average_aoi;
-  json["labels"] = plan.labels;
-  json["actions"] = plan.flight.actions;
-  return json.dump();
-}
-
 std::string SummaryJson(const SummaryInputs& inputs) {
   const TrainerProgress& progress = inputs.trainer.progress();
   const World& world = inputs.experiment.world();
@@ -194,16 +148,15 @@ std::string SummaryJson(const SummaryInputs& inputs) {
   json["updates_per_s"] = static_cast<double>(progress.updates) / inputs.wall_s;
   json["transitions_per_s"] = static_cast<double>(progress.transitions) / inputs.wall_s;
   json["weights_crc32c"] = fmt::format("{:08x}", Crc32c(Values(inputs.trainer.current())));
-  json["world"] = WorldJson(world.description());
-  AddPolicy(world, JudgedBy(inputs.trainer), json);
+  json.update(JudgementOf(inputs));
   json["best_version"] =
       inputs.trainer.best() ? OrderedJson(inputs.trainer.best()->evaluation.version) : OrderedJson();
   json["evaluation_episodes"] = inputs.experiment.schedule().evaluation_episodes();
   if (CanPlan(world)) {
-    AddOptimum(inputs, json);
+    json["optimum_search"] = SearchEndName(inputs.optimum.end);
   }
-  if (!world.reference_policies().empty()) {
-    json["baselines"] = Baselines(world);
+  if (json.contains("judged_episodes")) {
+    json["evaluations_optimal_" + world.description().figures.front().name] = OptimumOfEvaluations(inputs);
   }
   json["staleness_updates"] = progress.staleness_updates;
   json["bus"] = Counters(inputs.counters);

@@ -1,4 +1,4 @@
-// Makes summary.json and optimum.json, the results of a run. Pure functions; any thread may call them.
+// Makes summary.json, the results of a run. Pure functions; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -76,34 +76,22 @@ struct SummaryInputs {
 };
 
 /// Returns the JSON object of summary.json.
-///  - `world` has the kind of world, the name of an episode's success, and its figures with their units; the
-///    first one is the score.
-///  - `score`, `success` (the share of episodes that succeeded) and every figure by its name are those of the
-///    best evaluated version; null before the first evaluation. In a world without chance they are exact;
-///    otherwise they are means of `evaluation_episodes` episodes: fresh ones once the training is complete,
-///    before that those by which the version was chosen. The name of the success, for example `arrived`, says
-///    whether all of them succeeded.
-///  - `baselines` has the same of each reference policy of the world.
+///  - It has everything of JudgementJson (judgement.h), of the best evaluated version. In a world without
+///  chance
+///    one episode says everything. Otherwise the episodes are `evaluation_episodes` fresh ones once the
+///    training is complete, before that those by which the version was chosen.
 ///  - `updating` has UpdatingFigures, in seconds; null if there are none. The training thread was busy for
 ///    training_thread_s / wall_s of the time.
 ///  - `processor_s` has ProcessorFigures, in seconds, and the time of the search for the optimum, which is
 ///  one
 ///    of the learner's threads; null if there are none.
-/// Only worlds with a search for the optimum have the following:
-///  - `optimum_search` says how the search ended (SearchEndName).
-///  - `optimal_...` are the figures of the exact optimum; null if it is not proved.
-///  - `gap_percent` says how far the score is above the optimum; null if that is not proved or the policy
-///    does not succeed.
-///  - `best_found_...` are the figures of the best episode that the search found, which may be the optimum.
-///    No episode has a score below `lower_bound_...`. Both are null if the search has no result.
+///  - `optimum_search` says how the search ended (SearchEndName); only worlds with a search have it.
+///  - `evaluations_optimal_...` is the mean optimal score of the episodes that every evaluation flew; only if
+///    there are `judged_episodes`; null if it is not proved.
 std::string SummaryJson(const SummaryInputs& inputs);
 
 /// Whether a run with this summary is finished: its training is complete, and its search for the optimum was
 /// not stopped. Returns false if the text is not a summary.
 bool IsFinished(const std::string& summary_json);
-
-/// Returns the JSON object of optimum.json: the best flight that the search found, as indices of actions, and
-/// what is proved about it.
-std::string OptimumJson(const World& world, const Plan& plan);
 
 }  // namespace fresco

@@ -5,9 +5,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 
+#include "core/clock.h"
 #include "core/signals.h"
 #include "report/result_display.h"
+#include "storage/judgement.h"
+#include "storage/plans.h"
 #include "storage/policy.h"
 #include "tools/subcommands.h"
 #include "training/schedules.h"
@@ -35,68 +39,104 @@ void PrintProof(const Plan& plan) {
   }
 }
 
-/// The figures of several episodes.
-struct EpisodeFigures {
+/// Episodes of one policy.
+struct FlownEpisodes {
   std::vector<uint64_t> seeds;
-  std::vector<std::vector<double>> figures;  // by episode
-  std::vector<bool> succeeded;               // by episode
+  PolicyFigures figures;
+  std::vector<std::shared_ptr<const Plan>> plans;  // by episode; null where there is none
+  int64_t steps = 0;
+  double seconds = 0;  // that the policy took
+
+  bool has_plan() const {
+    return std::any_of(plans.begin(), plans.end(), [](const auto& plan) { return plan != nullptr; });
+  }
 };
 
-EpisodeFigures FlyEpisodes(const EvaluateOptions& options, const ChosenPolicy& chosen) {
+/// The seeds of the episodes to fly. If evaluations fly fixed episodes, they are those of the delivery.
+std::vector<uint64_t> SeedsToFly(const EvaluateOptions& options, const proto::Schedule& schedule) {
+  const int64_t first = schedule.fixed_evaluation_episodes() ? schedule.evaluation_episodes() : 0;
+  std::vector<uint64_t> seeds;
+  for (int i = 0; i < options.episodes.value_or(schedule.evaluation_episodes()); ++i) {
+    seeds.push_back(EvaluationSeed(options.seed.value_or(schedule.seed()), first + i));
+  }
+  return seeds;
+}
+
+/// The plans that the run of the policy has of these episodes, if it is a run in the same world.
+std::vector<std::shared_ptr<const Plan>> PlansOfRun(const PolicyChoice& choice, const ChosenPolicy& chosen,
+                                                    const std::vector<uint64_t>& seeds) {
+  const bool same_world =
+      chosen.network && chosen.network->experiment.WorldText() == chosen.experiment.WorldText();
+  return same_world ? PlansIn(choice.policy, chosen.experiment.world(), seeds)
+                    : std::vector<std::shared_ptr<const Plan>>(seeds.size());
+}
+
+FlownEpisodes FlyEpisodes(const EvaluateOptions& options, const ChosenPolicy& chosen) {
   const World& world = chosen.experiment.world();
-  const proto::Schedule& schedule = chosen.experiment.schedule();
-  EpisodeFigures result;
-  for (int i = 0; i < options.episodes.value_or(schedule.evaluation_episodes()) && !StopSignal::Requested();
-       ++i) {
-    result.seeds.push_back(EvaluationSeed(options.seed.value_or(schedule.seed()), i));
-    const FlownPolicy flown = FlyPolicy(options.choice, chosen, result.seeds.back());
-    result.figures.emplace_back(world.description().figures.size());
-    world.Judge(flown.episode, result.figures.back());
-    result.succeeded.push_back(world.Succeeded(flown.episode));
+  FlownEpisodes episodes;
+  episodes.seeds = SeedsToFly(options, chosen.experiment.schedule());
+  episodes.plans = PlansOfRun(options.choice, chosen, episodes.seeds);
+  for (size_t i = 0; i < episodes.seeds.size() && !StopSignal::Requested(); ++i) {
+    const int64_t begin_us = MonotonicMicroseconds();
+    const FlownPolicy flown = FlyPolicy(options.choice, chosen, episodes.seeds[i]);
+    episodes.seconds += 1e-6 * static_cast<double>(MonotonicMicroseconds() - begin_us);
+    episodes.steps += flown.episode.transitions();
+    episodes.figures.Add(world, flown.episode);
+    if (flown.plan) {
+      episodes.plans[i] = std::make_shared<const Plan>(*flown.plan);
+    }
   }
-  return result;
+  return episodes;
 }
 
-double Mean(const EpisodeFigures& episodes, size_t figure) {
-  double sum = 0;
-  for (const std::vector<double>& figures : episodes.figures) {
-    sum += figures[figure];
-  }
-  return sum / static_cast<double>(episodes.figures.size());
+/// JudgementJson of the policy in these episodes.
+std::string Judge(const World& world, const FlownEpisodes& episodes) {
+  const Evaluation policy{
+      0, 0, 0, episodes.figures.success(), episodes.figures.Means(), episodes.figures.scores()};
+  return JudgementJson(
+      {world, episodes.seeds, &policy,
+       episodes.has_plan() ? std::span(episodes.plans) : std::span<const std::shared_ptr<const Plan>>()});
 }
 
-double SuccessShare(const EpisodeFigures& episodes) {
-  const auto successes = std::count(episodes.succeeded.begin(), episodes.succeeded.end(), true);
-  return static_cast<double>(successes) / static_cast<double>(episodes.succeeded.size());
+double DecisionMilliseconds(const FlownEpisodes& episodes) {
+  return 1e3 * episodes.seconds / static_cast<double>(episodes.steps);
 }
 
-void PrintEpisodes(const WorldDescription& world, const EpisodeFigures& episodes, const std::string& policy) {
+void PrintEpisodes(const WorldDescription& world, const FlownEpisodes& episodes, const std::string& policy) {
+  const std::vector<std::vector<double>>& figures = episodes.figures.figures();
+  const std::vector<double> means = episodes.figures.Means();
   for (size_t figure = 0; figure < world.figures.size(); ++figure) {
-    const auto [least, most] =
-        std::minmax_element(episodes.figures.begin(), episodes.figures.end(),
-                            [&](const auto& a, const auto& b) { return a[figure] < b[figure]; });
+    const auto [least, most] = std::minmax_element(
+        figures.begin(), figures.end(), [&](const auto& a, const auto& b) { return a[figure] < b[figure]; });
     fmt::print("{}: {} {:.3f}{} on average over {} episodes, {:.3f} to {:.3f}\n", policy,
-               Title(world.figures[figure].name), Mean(episodes, figure),
-               world.figures[figure].unit.empty() ? "" : " " + world.figures[figure].unit,
-               episodes.figures.size(), (*least)[figure], (*most)[figure]);
+               Title(world.figures[figure].name), means[figure],
+               world.figures[figure].unit.empty() ? "" : " " + world.figures[figure].unit, figures.size(),
+               (*least)[figure], (*most)[figure]);
   }
-  fmt::print("{}: {} {}\n", policy, PercentText(SuccessShare(episodes)), Title(world.success));
+  fmt::print("{}: {} {}\n", policy, PercentText(episodes.figures.success()), Title(world.success));
 }
 
-std::string EpisodesJson(const WorldDescription& world, const EpisodeFigures& episodes,
-                         const std::string& policy) {
-  OrderedJson json = {{"policy", policy},
-                      {"world", world.name},
-                      {"score", Mean(episodes, 0)},
-                      {"success", SuccessShare(episodes)}};
-  for (size_t figure = 0; figure < world.figures.size(); ++figure) {
-    json[world.figures[figure].name] = Mean(episodes, figure);
+/// The judgement, with the figures of every episode in `episodes`.
+std::string EpisodesJson(const WorldDescription& world, const FlownEpisodes& episodes,
+                         const EvaluateOptions& options, const std::string& judgement) {
+  const OrderedJson judged = OrderedJson::parse(judgement);
+  OrderedJson json = {{"policy", options.choice.policy}};
+  json.update(judged);
+  json["world"] = world.name;
+  json.erase("judged_episodes");
+  if (options.choice.search_width > 0) {
+    json["search_width"] = options.choice.search_width;
+    json["decision_ms"] = DecisionMilliseconds(episodes);
   }
   json["episodes"] = OrderedJson::array();
-  for (size_t i = 0; i < episodes.figures.size(); ++i) {
-    OrderedJson episode = {{"seed", episodes.seeds[i]}, {world.success, bool{episodes.succeeded[i]}}};
+  for (size_t i = 0; i < episodes.seeds.size(); ++i) {
+    OrderedJson episode = {{"seed", episodes.seeds[i]},
+                           {world.success, bool{episodes.figures.succeeded()[i]}}};
     for (size_t figure = 0; figure < world.figures.size(); ++figure) {
-      episode[world.figures[figure].name] = episodes.figures[i][figure];
+      episode[world.figures[figure].name] = episodes.figures.figures()[i][figure];
+    }
+    if (judged.contains("judged_episodes")) {
+      episode.update(judged.at("judged_episodes").at(i));
     }
     json["episodes"].push_back(std::move(episode));
   }
@@ -125,14 +165,21 @@ int Evaluate(const EvaluateOptions& options) {
   if (!world.description().random) {
     return EvaluateOnce(options, chosen);
   }
-  const EpisodeFigures episodes = FlyEpisodes(options, chosen);
+  const FlownEpisodes episodes = FlyEpisodes(options, chosen);
   if (StopSignal::Requested()) {
     return 1;
   }
+  const std::string judgement = Judge(world, episodes);
   if (options.format == "json") {
-    fmt::print("{}\n", EpisodesJson(world.description(), episodes, options.choice.policy));
-  } else {
-    PrintEpisodes(world.description(), episodes, options.choice.policy);
+    fmt::print("{}\n", EpisodesJson(world.description(), episodes, options, judgement));
+    return 0;
+  }
+  PrintEpisodes(world.description(), episodes, options.choice.policy);
+  if (options.choice.search_width > 0) {
+    fmt::print("{}: {:.3f} ms a decision\n", options.choice.policy, DecisionMilliseconds(episodes));
+  }
+  if (!world.reference_policies().empty()) {
+    fmt::print("\n{}", ResultTable(judgement, options.choice.policy));
   }
   return 0;
 }

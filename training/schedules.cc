@@ -26,6 +26,15 @@ uint64_t SeedOf(uint64_t seed, RandomPurpose purpose, int64_t number) {
   return high << 32 | stream.NextWord();
 }
 
+/// Of schedule.evaluation_episodes evaluation episodes.
+std::vector<uint64_t> EvaluationSeeds(const proto::Schedule& schedule, int64_t first) {
+  std::vector<uint64_t> seeds;
+  for (int i = 0; i < schedule.evaluation_episodes(); ++i) {
+    seeds.push_back(EvaluationSeed(schedule.seed(), first + i));
+  }
+  return seeds;
+}
+
 }  // namespace
 
 uint64_t EpisodeSeed(uint64_t seed, int64_t episode) {
@@ -34,6 +43,14 @@ uint64_t EpisodeSeed(uint64_t seed, int64_t episode) {
 
 uint64_t EvaluationSeed(uint64_t seed, int64_t episode) {
   return SeedOf(seed, RandomPurpose::kEvaluationSeed, episode);
+}
+
+std::vector<uint64_t> FixedEvaluationSeeds(const proto::Schedule& schedule) {
+  return EvaluationSeeds(schedule, 0);
+}
+
+std::vector<uint64_t> FixedDeliverySeeds(const proto::Schedule& schedule) {
+  return EvaluationSeeds(schedule, schedule.evaluation_episodes());
 }
 
 double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t transitions) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "msgs/proto/experiment.pb.h"
 
@@ -14,6 +15,11 @@ namespace fresco {
 uint64_t EpisodeSeed(uint64_t seed, int64_t episode);
 /// The same for evaluation episodes, which are counted for themselves.
 uint64_t EvaluationSeed(uint64_t seed, int64_t episode);
+
+/// The seeds of the episodes that every evaluation flies if schedule.fixed_evaluation_episodes is true.
+std::vector<uint64_t> FixedEvaluationSeeds(const proto::Schedule& schedule);
+/// Then the seeds of those that judge the version that is delivered. No evaluation before had them.
+std::vector<uint64_t> FixedDeliverySeeds(const proto::Schedule& schedule);
 
 /// The epsilon, 0 .. 1, of training episode number `episode` (0, 1, ..), if its order is written when
 /// `transitions` transitions are committed.

@@ -200,10 +200,13 @@ void Trainer::WriteTrainingOrder() {
 /// Writes the orders of one evaluation. Each has a seed of its own.
 void Trainer::WriteEvaluation() {
   const proto::Schedule& schedule = experiment_.schedule();
+  const int64_t fixed = progress_.delivering ? schedule.evaluation_episodes() : 0;
+  const int64_t first = schedule.fixed_evaluation_episodes() ? fixed : evaluation_orders_;
   for (int i = 0; i < schedule.evaluation_episodes(); ++i) {
     Order order;
     order.kind = OrderKind::kEvaluate;
-    order.seed = EvaluationSeed(schedule.seed(), evaluation_orders_++);
+    order.seed = EvaluationSeed(schedule.seed(), first + i);
+    ++evaluation_orders_;
     WriteOrder(order);
   }
 }
@@ -225,6 +228,7 @@ void Trainer::CommitEvaluation(const Order& order, const Episode& episode) {
   partial.figures.resize(figures.size());
   std::transform(figures.begin(), figures.end(), partial.figures.begin(), partial.figures.begin(),
                  std::plus<>());
+  partial.scores.push_back(figures.front());
   partial.successes += experiment_.world().Succeeded(episode) ? 1 : 0;
   if (++partial.episodes == experiment_.schedule().evaluation_episodes()) {
     CompleteEvaluation(order);
@@ -237,8 +241,10 @@ void Trainer::CompleteEvaluation(const Order& order) {
   for (double& figure : partial.figures) {
     figure /= partial.episodes;
   }
-  const Evaluation evaluation{order.current_version, version.updates, progress_.episodes,
-                              static_cast<double>(partial.successes) / partial.episodes, partial.figures};
+  const Evaluation evaluation{
+      order.current_version, version.updates,
+      progress_.episodes,    static_cast<double>(partial.successes) / partial.episodes,
+      partial.figures,       partial.scores};
   if (progress_.delivering) {
     delivered_ = evaluation;
     return;

@@ -142,14 +142,18 @@ void Trainer::CheckEvaluations(const TrainingState& state) const {
   const PartialEvaluation& partial = state.partial_evaluation;
   Expect(0 <= partial.successes && partial.successes <= partial.episodes &&
              partial.episodes < experiment_.schedule().evaluation_episodes() &&
-             partial.figures.size() == (partial.episodes > 0 ? figures : 0),
+             partial.figures.size() == (partial.episodes > 0 ? figures : 0) &&
+             partial.scores.size() == static_cast<size_t>(partial.episodes),
          fmt::format("an evaluation of {} episodes, {} successes and {} figures", partial.episodes,
                      partial.successes, partial.figures.size()));
   for (const Evaluation* evaluation :
        {state.last_evaluation ? &*state.last_evaluation : nullptr,
         state.best ? &state.best->evaluation : nullptr, state.delivered ? &*state.delivered : nullptr}) {
-    Expect(evaluation == nullptr || evaluation->figures.size() == figures,
-           fmt::format("an evaluation without the {} figures of this world", figures));
+    const auto episodes = static_cast<size_t>(experiment_.schedule().evaluation_episodes());
+    Expect(
+        evaluation == nullptr ||
+            (evaluation->figures.size() == figures && evaluation->scores.size() == episodes),
+        fmt::format("an evaluation without the {} figures of this world and {} scores", figures, episodes));
   }
   Expect(!state.progress.delivering || state.best, "it delivers a best version, but has none");
   Expect((!state.progress.delivering && !state.delivered) ||

@@ -22,6 +22,7 @@ struct Evaluation {
   int64_t episodes = 0;         ///< training episodes committed when the result was committed
   double success = 0;           ///< share of its episodes that succeeded, 0 to 1
   std::vector<double> figures;  ///< means over its episodes, in the order of WorldDescription::figures
+  std::vector<double> scores;   ///< by episode: the first figure
 
   double score() const { return figures.front(); }
 };
@@ -55,6 +56,7 @@ struct PartialEvaluation {
   int episodes = 0;             ///< committed so far
   int successes = 0;            ///< how many of them succeeded
   std::vector<double> figures;  ///< sums over them
+  std::vector<double> scores;   ///< by episode: the first figure
 };
 
 /// The parameters of a network version.

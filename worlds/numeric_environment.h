@@ -38,6 +38,8 @@ class NumericEnvironment final : public Environment {
     return {result.reward, ending_};
   }
 
+  void CopyFrom(const Environment& other) override { *this = static_cast<const NumericEnvironment&>(other); }
+
   void WriteState(std::span<float> state) const override {
     FRESCO_CHECK(state.size() == kFields);
     for (size_t field = 0; field < kFields; ++field) {

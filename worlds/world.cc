@@ -97,9 +97,19 @@ EpisodeAccount World::Tell(const Episode& episode) const {
   return account;
 }
 
-Episode World::FlyReference(const std::string&) const {
+Episode World::FlyReference(const std::string&, uint64_t) const {
   FRESCO_CHECK(false);
 }
+
+void Environment::CopyFrom(const Environment&) {
+  FRESCO_CHECK(false);
+}
+
+std::string World::GroupOf(const Episode&) const {
+  return "";
+}
+
+void World::CheckServes(const World&) const {}
 
 int World::DrawPlace(RandomStream&) const {
   FRESCO_CHECK(false);

@@ -63,6 +63,8 @@ struct WorldDescription {
   /// Whether the same action in the same state may have another result. If not, what an episode earned from a
   /// state on can be earned again.
   bool chance = true;
+  /// Whether its environments have CopyFrom, so that a search can try several actions from one state.
+  bool copies = false;
   std::vector<Quantity> figures;  ///< what an episode is judged by; the first one is its score
   bool less_is_better = false;    ///< of two scores
   std::string success;            ///< what an episode that succeeds did, e.g. "arrived"
@@ -105,6 +107,9 @@ class Environment {
 
   /// Writes 1 to mask[a] if action a is allowed now, otherwise 0. At least one action is allowed.
   virtual void WriteMask(std::span<uint8_t> mask) const;
+
+  /// Goes on from where `other`, an environment of the same world, is. CHECKs WorldDescription::copies.
+  virtual void CopyFrom(const Environment& other);
 };
 
 /// A range of actions, from `first` to before `end`.
@@ -146,8 +151,14 @@ class World {
 
   /// Known policies to compare an agent with; the default is none.
   virtual std::vector<ReferencePolicy> reference_policies() const { return {}; }
-  /// One episode of the reference policy with this name. CHECKs that there is one.
-  virtual Episode FlyReference(const std::string& name) const;
+  /// The episode of a seed as the reference policy with this name acts in it. CHECKs that there is one.
+  virtual Episode FlyReference(const std::string& name, uint64_t seed) const;
+  /// Names what this episode is compared within, e.g. "3 sensors"; empty if all episodes are alike.
+  virtual std::string GroupOf(const Episode& episode) const;
+
+  /// Throws UsageError that names what is out of range if a policy that learned in this world is not made for
+  /// the episodes of `other`. The default: it is made for every world in which its network fits.
+  virtual void CheckServes(const World& other) const;
 
   /// Excursions (schedule.excursion_share): places that an agent can set out for. The default is a world
   /// without any.

@@ -59,7 +59,7 @@ PlannerFigures PlanToTheEnd(const std::vector<Deployment>& deployments) {
     const UavWorld world(ScenarioOf(deployment));
     ForgetPeakMemory();
     const int64_t begin_us = ThreadProcessorMicroseconds();
-    const Plan plan = PlanOptimally(world);
+    const Plan plan = PlanOptimally(world, 0);
     if (!plan.optimal) {
       throw Failure("the planner did not prove an optimum within the memory allowed");
     }

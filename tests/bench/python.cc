@@ -77,7 +77,7 @@ std::optional<double> OptimumOf(const Experiment& experiment) {
   if (!CanPlan(experiment.world())) {
     return std::nullopt;
   }
-  const Plan plan = PlanOptimally(experiment.world());
+  const Plan plan = PlanOptimally(experiment.world(), 0);
   std::vector<double> figures(experiment.world().description().figures.size());
   experiment.world().Judge(plan.flight, figures);
   return plan.optimal ? std::optional(figures.front()) : std::nullopt;

@@ -70,8 +70,9 @@ TEST_F(LearnerNodeTest, TellsAGapOnlyToAProvedOptimum) {
   Evaluation evaluation;
   evaluation.success = 1;
   evaluation.figures = {12, 1000, 3};
+  evaluation.scores = {12};
   TrainingReport report{.last_evaluation = evaluation, .best = BestNetwork{evaluation, nullptr}};
-  report.optimum = {2, false};
+  report.optimum = {{2, false}};
   node_.Report(report);
   learner_status_t status = NextStatus();
   EXPECT_EQ(status.score, 12);
@@ -80,11 +81,34 @@ TEST_F(LearnerNodeTest, TellsAGapOnlyToAProvedOptimum) {
   EXPECT_EQ(status.score_bound, 2);
   EXPECT_EQ(status.optimum_proved, 0);
   EXPECT_TRUE(std::isnan(status.gap_percent));
-  report.optimum = {10, true};
+  report.optimum = {{10, true}};
   node_.Report(report);
   status = NextStatus();
   EXPECT_EQ(status.optimum_proved, 1);
   EXPECT_EQ(status.gap_percent, 20);
+  EXPECT_EQ(status.gap_median_percent, 20);
+  EXPECT_EQ(status.gap_worst_percent, 20);
+}
+
+TEST_F(LearnerNodeTest, TellsTheGapsOfSeveralEpisodes) {
+  Evaluation evaluation;
+  evaluation.success = 1;
+  evaluation.figures = {11.5, 1000, 3};
+  evaluation.scores = {11, 10, 9, 16};
+  TrainingReport report{.last_evaluation = evaluation, .best = BestNetwork{evaluation, nullptr}};
+  report.optimum = {{10, true}, {10, true}, {9, true}, {8, false}, {1, true}};
+  node_.Report(report);
+  learner_status_t status = NextStatus();
+  EXPECT_EQ(status.score_bound, 9.25);
+  EXPECT_EQ(status.optimum_proved, 0);
+  EXPECT_TRUE(std::isnan(status.gap_percent));
+  report.optimum[3].proved = true;
+  node_.Report(report);
+  status = NextStatus();
+  EXPECT_EQ(status.optimum_proved, 1);
+  EXPECT_EQ(status.gap_percent, 27.5);  // 10, 0, 0 and 100 percent
+  EXPECT_EQ(status.gap_median_percent, 5);
+  EXPECT_EQ(status.gap_worst_percent, 100);
 }
 
 TEST_F(LearnerNodeTest, TellsViewersItsField) {

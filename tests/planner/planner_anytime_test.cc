@@ -53,7 +53,7 @@ struct Stopper {
 // So few labels a slot that the optimum's are dropped on the way: the bound has to remember them.
 TEST(PlannerProgress, ClaimsNoMoreThanIsProvedWhereLabelsAreDropped) {
   const UavWorld world(SquareField(14, 50, {7, 0}, {7, 13}, RandomSensors(14, 14, 25, 3, 1)));
-  const Plan plan = PlanOptimally(world);
+  const Plan plan = PlanOptimally(world, 0);
   const int64_t optimum = Figures(world, plan.flight).total_aoi;  // in the problem's units, weights being 1
   int64_t largest_bound = 0;
   WorkMeter meter([&](const SearchProgress& progress) {
@@ -74,7 +74,7 @@ TEST(PlannerProgress, ClaimsNoMoreThanIsProvedWhereLabelsAreDropped) {
 Plan PlanUntilCall(const UavWorld& world, int last, Stopper* stopper) {
   *stopper = {};
   stopper->last = last;
-  return PlanOptimally(world, stopper->Options());
+  return PlanOptimally(world, 0, stopper->Options());
 }
 
 TEST(PlannerStopped, AtAnyCallItHasAFlightAndATrueBoundAndAsksNoMore) {
@@ -132,7 +132,7 @@ TEST(PlannerStopped, AsksInsideWideSlots) {
   options.keep_going = [&](const PlannerProgress& progress) {
     return count(progress) && !stopper.asked_twice_in_a_slot;
   };
-  const Plan plan = PlanOptimally(world, options);
+  const Plan plan = PlanOptimally(world, 0, options);
   EXPECT_TRUE(stopper.asked_twice_in_a_slot);
   EXPECT_FALSE(plan.optimal);
   EXPECT_TRUE(Arrived(plan.flight));
@@ -164,7 +164,7 @@ TEST(PlannerStarved, ProvesWhatItsMemoryAllows) {
     const UavWorld world(scenario);
     const double optimum = ExhaustiveSearch(scenario).LeastAverageAoi();
     for (int64_t bytes = 512; bytes <= 65536; bytes *= 2) {
-      const Plan plan = PlanOptimally(world, {.memory_bytes = bytes});
+      const Plan plan = PlanOptimally(world, 0, {.memory_bytes = bytes});
       ExpectHolds(world, plan, optimum);
       proved += plan.optimal;
     }
@@ -174,12 +174,12 @@ TEST(PlannerStarved, ProvesWhatItsMemoryAllows) {
 
 TEST(PlannerStarved, WithNoMemoryToSpeakOfItStillFlies) {
   const UavWorld world(MediumScenario(3, 50));
-  const Plan whole = PlanOptimally(world);
+  const Plan whole = PlanOptimally(world, 0);
   ASSERT_TRUE(whole.optimal);
   int unproved = 0;
   for (const int64_t bytes : {int64_t{0}, int64_t{200'000}, int64_t{1'000'000}, int64_t{2'000'000}}) {
     SCOPED_TRACE(bytes);
-    const Plan plan = PlanOptimally(world, {.memory_bytes = bytes});
+    const Plan plan = PlanOptimally(world, 0, {.memory_bytes = bytes});
     ExpectHolds(world, plan, whole.lower_bound_average_aoi);
     EXPECT_LE(plan.labels, int64_t{44} * std::max<int64_t>(100, bytes / 300));
     unproved += !plan.optimal;
@@ -196,7 +196,7 @@ TEST(PlannerStopped, BoundsTheTotalInWholeNumbersWhereWeightsAreEqual) {
     }
     const UavWorld world(scenario);
     for (const int64_t bytes : {int64_t{0}, int64_t{4096}}) {
-      const Plan plan = PlanOptimally(world, {.memory_bytes = bytes});
+      const Plan plan = PlanOptimally(world, 0, {.memory_bytes = bytes});
       const auto total = static_cast<double>(Figures(world, plan.flight).total_aoi);
       EXPECT_EQ(plan.lower_bound_total_aoi, std::floor(plan.lower_bound_total_aoi));
       EXPECT_LE(plan.lower_bound_total_aoi, total);

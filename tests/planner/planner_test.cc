@@ -115,7 +115,7 @@ TEST(Planner, FindsTheOptimumOfExhaustiveSearchInEveryKindOfScenario) {
     SCOPED_TRACE(index);
     const Scenario scenario = TinyScenario(index);
     const UavWorld world(scenario);
-    const Plan plan = PlanOptimally(world);
+    const Plan plan = PlanOptimally(world, 0);
     const AoiFigures figures = Figures(world, plan.flight);
     ASSERT_TRUE(plan.optimal);
     ASSERT_NEAR(figures.average_aoi, ExhaustiveSearch(scenario).LeastAverageAoi(), 1e-9);
@@ -170,7 +170,7 @@ TEST(Planner, ReachesTheKnownTotalsOfThePapersGrid) {
   for (const KnownOptimum& known : KnownOptima()) {
     SCOPED_TRACE(known.total_aoi);
     const UavWorld world(InCells(known.sensors, known.radius_cells));
-    const Plan plan = PlanOptimally(world);
+    const Plan plan = PlanOptimally(world, 0);
     EXPECT_TRUE(plan.optimal);
     EXPECT_EQ(Figures(world, plan.flight).total_aoi, known.total_aoi);
     EXPECT_EQ(plan.lower_bound_total_aoi, static_cast<double>(known.total_aoi));
@@ -180,8 +180,8 @@ TEST(Planner, ReachesTheKnownTotalsOfThePapersGrid) {
 TEST(Planner, GivesTheSameResultTwice) {
   for (uint32_t index = 0; index < 40; ++index) {
     const UavWorld world(TinyScenario(index));
-    const Plan first = PlanOptimally(world);
-    const Plan second = PlanOptimally(world);
+    const Plan first = PlanOptimally(world, 0);
+    const Plan second = PlanOptimally(world, 0);
     EXPECT_EQ(first.flight.actions, second.flight.actions);
     EXPECT_EQ(first.lower_bound_average_aoi, second.lower_bound_average_aoi);
     EXPECT_EQ(first.labels, second.labels);
@@ -199,7 +199,7 @@ TEST(Planner, ClaimsOfUnroundedWeightsOnlyWhatItHasProved) {
       sensor.weight = std::pow(10, 12 * stream.NextUniform() - 6);
     }
     const UavWorld world(scenario);
-    const Plan plan = PlanOptimally(world);
+    const Plan plan = PlanOptimally(world, 0);
     const double optimum = ExhaustiveSearch(scenario).LeastAverageAoi();
     const double found = Figures(world, plan.flight).average_aoi;
     ASSERT_TRUE(plan.optimal);

@@ -78,7 +78,7 @@ void WriteRun(const std::filesystem::path& folder, const Experiment& experiment,
   contents.summary =
       "The exact optimum of the paper's field beside its two comparison algorithms: 70 slots of a second on "
       "a grid of 20 by 20 cells, from the middle of the southern edge to the middle of the northern one.";
-  contents.episodes = {{"exact optimum", PlanOptimally(world).flight},
+  contents.episodes = {{"exact optimum", PlanOptimally(world, 0).flight},
                        {"AoI-based", FlyBaseline(world, BaselineKind::kAoi)},
                        {"distance-based", FlyBaseline(world, BaselineKind::kDistance)}};
   contents.tables = {{"Flights", {"flight", "average AoI", "total AoI", "energy left (J)"}, {}},

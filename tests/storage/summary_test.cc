@@ -47,7 +47,7 @@ Json SummaryOf(const RecordedRun& run, int64_t run_id = 0x2a, std::shared_ptr<co
                                   4.0,
                                   run.trainer,
                                   DistinctCounters(),
-                                  {std::move(plan), end}}));
+                                  {{std::move(plan)}, end}}));
 }
 
 std::string EightDigits(uint32_t value) {
@@ -123,7 +123,7 @@ TEST(Summary, GivesTheFiguresOfBothBaselines) {
 
 /// The optimum of the small field, or as if the search had been ended early.
 std::shared_ptr<const Plan> PlanOf(const RecordedRun& run, bool proved) {
-  Plan plan = PlanOptimally(UavWorldOf(run));
+  Plan plan = PlanOptimally(UavWorldOf(run), 0);
   if (!proved) {
     plan.optimal = false;
     plan.lower_bound_average_aoi *= 0.75;
@@ -182,7 +182,8 @@ TEST(Summary, HasNoGapWithoutASearchOrAnEvaluation) {
 TEST(Summary, WritesTheOptimumAsActionsThatFlyIt) {
   const RecordedRun run;
   const auto plan = PlanOf(run, true);
-  const Json optimum = Json::parse(OptimumJson(run.world, *plan));
+  const std::vector<uint64_t> seeds = {0};
+  const Json optimum = Json::parse(OptimumJson(run.world, seeds, std::vector{plan})).at("episodes").at(0);
   size_t next = 0;
   const Episode flight = Fly(UavWorldOf(run), [&](const UavEnvironment&) {
     return UavWorldOf(run).ActionAt(optimum.at("actions").at(next++).get<int>());

@@ -30,6 +30,7 @@ WorldDescription DescribeAcrobot(int maximum_steps) {
   description.longest_episode = maximum_steps;
   description.discount = 0.99;
   description.chance = false;
+  description.copies = true;
   description.figures = {{"return", ""}};
   description.success = "swung_up";
   return description;

@@ -27,6 +27,7 @@ WorldDescription DescribeCartPole(int maximum_steps) {
   description.longest_episode = maximum_steps;
   description.discount = 0.99;
   description.chance = false;
+  description.copies = true;
   description.figures = {{"return", ""}};
   description.success = "balanced";
   return description;

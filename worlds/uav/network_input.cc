@@ -12,8 +12,18 @@ float Share(int position, int cells) {
   return cells > 1 ? static_cast<float>(position) / static_cast<float>(cells - 1) : 0.0f;
 }
 
-constexpr int kOwnInputs = 6;     // of an input for sets
+constexpr int kOwnInputs = 7;     // of an observation for sets
 constexpr int kSensorInputs = 7;  // of each sensor
+
+/// The sum of the sensors' weights. It is a sum of whole numbers, so their order changes no bit.
+double TotalWeight(std::span<const Sensor> sensors) {
+  constexpr double kParts = double{uint64_t{1} << 32};
+  int64_t total = 0;
+  for (const Sensor& sensor : sensors) {
+    total += static_cast<int64_t>(sensor.weight * kParts);
+  }
+  return static_cast<double>(total) / kParts;
+}
 
 /// The grid's longer side.
 double Side(const Scenario& scenario) {
@@ -26,6 +36,41 @@ float ScaledDistance(const Scenario& scenario, Cell cell, const Sensor& sensor) 
 }
 
 }  // namespace
+
+ObservationSets SetsOf(int sensors) {
+  return {kOwnInputs, sensors, kSensorInputs, kMoves};
+}
+
+void WriteSets(const ObservedField& field, std::span<const float> state, std::span<float> input) {
+  const double longer_side = std::max(field.columns, field.rows);
+  const auto slots = static_cast<float>(field.slots);
+  const double total_weight = TotalWeight(field.sensors);
+  const Cell cell = CellIn(state);
+  const auto cells = [&](double count) { return static_cast<float>(count / longer_side); };
+  const auto metres = [&](double length_m) {
+    return static_cast<float>(length_m / (longer_side * field.cell_m));
+  };
+  auto next = input.begin();
+  *next++ = cells(cell.column);
+  *next++ = cells(cell.row);
+  *next++ = cells(field.stop.column - cell.column);
+  *next++ = cells(field.stop.row - cell.row);
+  *next++ = state[kTimeMarginField] / slots;
+  *next++ = state[kEnergyMarginField] / static_cast<float>(field.initial_energy_j);
+  *next++ = metres(field.coverage_radius_m);
+  for (size_t i = 0; i < field.sensors.size(); ++i) {
+    const Sensor& sensor = field.sensors[i];
+    const double distance_m = HorizontalDistance(cell, field.cell_m, sensor);
+    *next++ = 1;
+    *next++ = metres(sensor.x_m - cell.column * field.cell_m);
+    *next++ = metres(sensor.y_m - cell.row * field.cell_m);
+    *next++ = metres(distance_m);
+    *next++ = IsWithin(field.coverage_radius_m, distance_m) ? 1 : 0;
+    *next++ = state[kAoiField + i] / slots;
+    *next++ = static_cast<float>(sensor.weight / total_weight);
+  }
+  std::fill(next, input.end(), 0.0f);
+}
 
 NetworkInput::NetworkInput(const UavWorld& world, NetworkInputOptions options)
     : world_(&world), options_(options) {
@@ -54,46 +99,17 @@ int NetworkInput::Size(int sensors, NetworkInputOptions options) {
   return sensors + 4 + (options.sensor_geometry ? 2 * sensors : 0);
 }
 
-std::optional<ObservationSets> NetworkInput::Sets(int sensors, NetworkInputOptions options) {
-  return options.sets ? std::optional<ObservationSets>({kOwnInputs, sensors, kSensorInputs, kMoves})
-                      : std::nullopt;
-}
-
-void NetworkInput::WriteSets(std::span<const float> state, std::span<float> input) const {
-  const Scenario& scenario = world_->scenario();
-  const double side_m = Side(scenario);
-  const auto slots = static_cast<float>(scenario.slots);
-  const Cell cell = CellIn(state);
-  const auto scaled = [&](double metres) { return static_cast<float>(metres / side_m); };
-  size_t next = 0;
-  input[next++] = Share(cell.column, scenario.columns);
-  input[next++] = Share(cell.row, scenario.rows);
-  input[next++] = scaled((scenario.stop.column - cell.column) * scenario.cell_m);
-  input[next++] = scaled((scenario.stop.row - cell.row) * scenario.cell_m);
-  input[next++] = state[kTimeMarginField] / slots;
-  input[next++] = state[kEnergyMarginField] / static_cast<float>(scenario.initial_energy_j);
-  for (int i = 0; i < world_->sensors(); ++i) {
-    const auto at = static_cast<size_t>(i);
-    const Sensor& sensor = scenario.sensors[at];
-    input[next++] = 1;
-    input[next++] = scaled(sensor.x_m - cell.column * scenario.cell_m);
-    input[next++] = scaled(sensor.y_m - cell.row * scenario.cell_m);
-    input[next++] = ScaledDistance(scenario, cell, sensor);
-    input[next++] = world_->Covers(cell, i) ? 1 : 0;
-    input[next++] = state[kAoiField + at] / slots;
-    input[next++] = static_cast<float>(world_->sensors() * world_->theta()[at]);
-  }
-}
-
 void NetworkInput::Write(std::span<const float> state, std::span<float> input) const {
   const auto sensors = static_cast<size_t>(world_->sensors());
   FRESCO_CHECK(input.size() == static_cast<size_t>(Size(world_->sensors(), options_)));
   FRESCO_CHECK(state.size() == kAoiField + sensors);
+  const Scenario& scenario = world_->scenario();
   if (options_.sets) {
-    WriteSets(state, input);
+    WriteSets({scenario.columns, scenario.rows, scenario.cell_m, scenario.initial_energy_j, scenario.slots,
+               scenario.coverage_radius_m, scenario.stop, scenario.sensors},
+              state, input);
     return;
   }
-  const Scenario& scenario = world_->scenario();
   const auto slots = static_cast<float>(scenario.slots);
   const Cell cell = CellIn(state);
   size_t next = 0;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,10 +21,29 @@ struct NetworkInputOptions {
   bool sets = false;
 };
 
-/// With `sets`, the entries of the input are column / (columns - 1), row / (rows - 1), the stop's columns and
-/// rows from here / S, phi / T and Delta / E_max; then for each sensor 1, its metres to the east and to the
-/// north of here and its distance, each / (S * cell_m), 1 or 0 (it is covered or not), delta_n / T and N *
-/// theta_n. S is the larger number of columns and rows.
+/// The part of a field that an observation for agent.set_network is made of, besides the state.
+struct ObservedField {
+  int columns = 0;
+  int rows = 0;
+  double cell_m = 0;
+  double initial_energy_j = 0;  ///< E_max
+  int slots = 0;                ///< T
+  double coverage_radius_m = 0;
+  Cell stop;
+  std::span<const Sensor> sensors;
+};
+
+/// What a world states about an observation for agent.set_network with at most so many sensors.
+ObservationSets SetsOf(int sensors);
+
+/// Writes an observation for agent.set_network. First the UAV's own numbers: column, row, the way to the stop
+/// (columns, rows), phi / T, Delta / E_max, R. Then for each sensor: 1, the way to it (east, north), its
+/// distance, 1 if it is covered or else 0, delta_n / T and theta_n. Lengths are divided by the grid's longer
+/// side. `state` begins with the fields of a UavWorld (uav_world.h); entries behind those of the sensors are
+/// 0, as for sensors that the field does not have. The order of the sensors changes no bit of an entry.
+void WriteSets(const ObservedField& field, std::span<const float> state, std::span<float> input);
+
+/// With `sets`, the input is that of WriteSets.
 ///
 /// Otherwise the entries of the input are column / (columns - 1), row / (rows - 1), delta_n / T for each of
 /// the N sensors, phi / T and Delta / E_max. With sensor_geometry, there follow N entries of 1 or 0 (sensor n
@@ -38,8 +56,6 @@ class NetworkInput {
 
   /// The number of entries for so many sensors.
   static int Size(int sensors, NetworkInputOptions options);
-  /// What a world states about an input with `sets`; none without it.
-  static std::optional<ObservationSets> Sets(int sensors, NetworkInputOptions options);
   /// The memory of the geometry table, bytes.
   int64_t bytes() const { return static_cast<int64_t>(geometry_.size() * sizeof(geometry_[0])); }
 
@@ -48,8 +64,6 @@ class NetworkInput {
   void Write(std::span<const float> state, std::span<float> input) const;
 
  private:
-  void WriteSets(std::span<const float> state, std::span<float> input) const;
-
   const UavWorld* world_;
   NetworkInputOptions options_;
   std::vector<float> geometry_;  // for every cell: N times covered or not, then N distances

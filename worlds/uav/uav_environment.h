@@ -42,6 +42,8 @@ class UavEnvironment : public Environment {
   StepResult Step(Action action);
   StepResult Step(int action) override { return Step(world_->ActionAt(action)); }
 
+  void CopyFrom(const Environment& other) override { *this = static_cast<const UavEnvironment&>(other); }
+
   void WriteState(std::span<float> state) const override;
 
   /// Writes 1 to mask[a] if the action with index a is allowed now, otherwise 0. CHECKs that `mask` has

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -11,9 +13,6 @@
 
 namespace fresco {
 namespace {
-
-constexpr int kOwnNumbers = 7;     // that the network sees of the UAV
-constexpr int kSensorNumbers = 7;  // and of each sensor
 
 /// Rounded to the precision of a state, so that a state says the field exactly.
 double AsInAState(double value) {
@@ -76,8 +75,8 @@ WorldDescription DescribeFields(const Scenario& common, const FieldRanges& range
     description.state.push_back({fmt::format("sensor_{}_y_m", sensor), "m"});
     description.state.push_back({fmt::format("sensor_{}_weight", sensor), ""});
   }
-  description.sets = {kOwnNumbers, ranges.sensors.maximum, kSensorNumbers, kMoves};
-  description.observation_size = kOwnNumbers + kSensorNumbers * ranges.sensors.maximum;
+  description.sets = SetsOf(ranges.sensors.maximum);
+  description.observation_size = NetworkInput::Size(ranges.sensors.maximum, {.sets = true});
   return description;
 }
 
@@ -88,11 +87,20 @@ class UavFieldsEnvironment : public Environment {
       : fields_(&fields), field_part_(fields.layout().size()) {}
 
   void Reset(uint64_t seed) override {
-    environment_.reset();
-    field_ = std::make_unique<UavWorld>(fields_->Draw(seed), fields_->options());
-    environment_ = std::make_unique<UavEnvironment>(*field_);
+    field_ = fields_->WorldOf(seed);
+    environment_.emplace(*field_);
     field_mask_.resize(static_cast<size_t>(field_->actions()));
     fields_->WriteField(field_->scenario(), field_part_);
+  }
+
+  void CopyFrom(const Environment& other) override {
+    const auto& from = static_cast<const UavFieldsEnvironment&>(other);
+    field_mask_.resize(from.field_mask_.size());
+    environment_ = from.environment_;
+    if (field_ != from.field_) {
+      field_ = from.field_;
+      field_part_ = from.field_part_;
+    }
   }
 
   StepResult Step(int action) override {
@@ -117,8 +125,8 @@ class UavFieldsEnvironment : public Environment {
 
  private:
   const UavFields* fields_;
-  std::unique_ptr<const UavWorld> field_;
-  std::unique_ptr<UavEnvironment> environment_;
+  std::shared_ptr<const UavWorld> field_;  // copies share it
+  std::optional<UavEnvironment> environment_;
   std::vector<float> field_part_;  // a state with nothing but the field
   mutable std::vector<uint8_t> field_mask_;
 };
@@ -214,39 +222,16 @@ void UavFields::Observe(std::span<const float> state, std::span<float> observati
   FRESCO_CHECK(state.size() == layout().size());
   FRESCO_CHECK(observation.size() == static_cast<size_t>(observation_size()));
   const UavFieldsLayout at = layout();
-  const auto longer_side = static_cast<float>(std::max(common_.columns, common_.rows));
-  const float longer_side_m = longer_side * static_cast<float>(common_.cell_m);
-  const Cell cell = CellIn(state);
-  const float slots = state[at.slots()];
-  const float radius_m = state[at.coverage_radius_m()];
-  float total_weight = 0;
-  for (size_t sensor = 0; sensor < at.most; ++sensor) {
-    total_weight += state[at.sensor(sensor) + 2];
+  std::array<Sensor, kMaximumSensors> sensors;
+  size_t count = 0;
+  for (; count < at.most && state[at.sensor(count) + 2] > 0; ++count) {
+    sensors[count] = {state[at.sensor(count)], state[at.sensor(count) + 1], state[at.sensor(count) + 2]};
   }
-  auto input = observation.begin();
-  *input++ = state[kColumnField] / longer_side;
-  *input++ = state[kRowField] / longer_side;
-  *input++ = (state[at.stop()] - state[kColumnField]) / longer_side;
-  *input++ = (state[at.stop() + 1] - state[kRowField]) / longer_side;
-  *input++ = state[kTimeMarginField] / slots;
-  *input++ = state[kEnergyMarginField] / static_cast<float>(common_.initial_energy_j);
-  *input++ = radius_m / longer_side_m;
-  for (size_t number = 0; number < at.most; ++number) {
-    const std::span<const float> fields = state.subspan(at.sensor(number), 3);
-    if (fields[2] == 0) {
-      input = std::fill_n(input, kSensorNumbers, 0.0f);
-      continue;
-    }
-    const Sensor sensor = {fields[0], fields[1], fields[2]};
-    const double distance_m = HorizontalDistance(cell, common_.cell_m, sensor);
-    *input++ = 1;
-    *input++ = static_cast<float>(sensor.x_m - cell.column * common_.cell_m) / longer_side_m;
-    *input++ = static_cast<float>(sensor.y_m - cell.row * common_.cell_m) / longer_side_m;
-    *input++ = static_cast<float>(distance_m) / longer_side_m;
-    *input++ = IsWithin(radius_m, distance_m) ? 1.0f : 0.0f;
-    *input++ = state[kAoiField + number] / slots;
-    *input++ = fields[2] / total_weight;
-  }
+  const Cell stop = {static_cast<int>(state[at.stop()]), static_cast<int>(state[at.stop() + 1])};
+  WriteSets({common_.columns, common_.rows, common_.cell_m, common_.initial_energy_j,
+             static_cast<int>(state[at.slots()]), state[at.coverage_radius_m()], stop,
+             std::span(sensors).first(count)},
+            state, observation);
 }
 
 Action UavFields::ActionAt(int index, int sensors) const {
@@ -257,6 +242,10 @@ Action UavFields::ActionAt(int index, int sensors) const {
 
 std::unique_ptr<const UavWorld> UavFields::WorldOf(const Episode& episode) const {
   return std::make_unique<const UavWorld>(FieldIn(episode.state(0)), options_);
+}
+
+std::unique_ptr<const UavWorld> UavFields::WorldOf(uint64_t seed) const {
+  return std::make_unique<const UavWorld>(Draw(seed), options_);
 }
 
 Episode UavFields::InItsField(const UavWorld& field, const Episode& episode) const {
@@ -282,6 +271,15 @@ Episode UavFields::InItsField(const UavWorld& field, const Episode& episode) con
   return flight;
 }
 
+Episode UavFields::FromItsField(const UavWorld& field, uint64_t seed, const Episode& flight) const {
+  EpisodeRecorder recorder(*this, seed);
+  for (const int16_t action : flight.actions) {
+    const Action in_field = field.ActionAt(action);
+    recorder.Step(static_cast<int>(in_field.move) * schedules() + in_field.schedule);
+  }
+  return recorder.Release();
+}
+
 void UavFields::Judge(const Episode& episode, std::span<double> figures) const {
   const auto field = WorldOf(episode);
   field->Judge(InItsField(*field, episode), figures);
@@ -294,6 +292,89 @@ bool UavFields::Succeeded(const Episode& episode) const {
 EpisodeAccount UavFields::Tell(const Episode& flight) const {
   const auto field = WorldOf(flight);
   return field->Tell(InItsField(*field, flight));
+}
+
+std::vector<ReferencePolicy> UavFields::reference_policies() const {
+  return WorldOf(0)->reference_policies();
+}
+
+Episode UavFields::FlyReference(const std::string& name, uint64_t seed) const {
+  const auto field = WorldOf(seed);
+  return FromItsField(*field, seed, field->FlyReference(name));
+}
+
+void UavFields::CheckServes(const World& other) const {
+  if (const UavFields* fields = AsUavFields(other)) {
+    // A field with the least and one with the most of everything.
+    Scenario least = fields->common_;
+    least.slots = fields->ranges_.slots.minimum;
+    least.coverage_radius_m = fields->ranges_.coverage_radius_m.minimum;
+    least.sensors.assign(static_cast<size_t>(fields->ranges_.sensors.minimum),
+                         {0, 0, fields->ranges_.weight.minimum});
+    CheckServesField(UavWorld(least, options_));
+    Scenario most = Largest(fields->common_, fields->ranges_);
+    most.sensors.front().weight = fields->ranges_.weight.maximum / fields->ranges_.weight.minimum;
+    CheckServesField(UavWorld(most, options_));
+    if ((fields->ranges_.any_start && !ranges_.any_start) ||
+        (fields->ranges_.any_stop && !ranges_.any_stop)) {
+      throw UsageError("start and stop of its fields are anywhere; the policy knows one start and one stop");
+    }
+    return;
+  }
+  const UavWorld* field = AsUavWorld(other);
+  if (field == nullptr) {
+    throw UsageError("it is no field of the UAV's world");
+  }
+  CheckServesField(*field);
+}
+
+void UavFields::CheckServesField(const UavWorld& field) const {
+  const Scenario& scenario = field.scenario();
+  const UavWorld own(Largest(common_, ranges_), options_);
+  const auto check = [](bool holds, const char* what, const auto& found, const auto& expected) {
+    if (!holds) {
+      throw UsageError(fmt::format("{} {} is out of range; it was trained for {}", what, found, expected));
+    }
+  };
+  const auto check_range = [&](const char* what, auto value, auto range) {
+    check(value >= range.minimum && value <= range.maximum, what, value,
+          fmt::format("{} to {}", range.minimum, range.maximum));
+  };
+  const auto check_same = [&](const char* what, auto value, auto trained) {
+    check(value == trained, what, value, trained);
+  };
+  const auto check_cell = [&](const char* what, Cell value, Cell trained, bool any) {
+    check(any || value == trained, what, fmt::format("({}, {})", value.column, value.row),
+          fmt::format("({}, {})", trained.column, trained.row));
+  };
+  check_range("the number of sensors (scenario.sensor)", field.sensors(), ranges_.sensors);
+  check_range("scenario.coverage_radius_m", scenario.coverage_radius_m, ranges_.coverage_radius_m);
+  check_range("scenario.slots", scenario.slots, ranges_.slots);
+  check_same("scenario.grid.columns", scenario.columns, common_.columns);
+  check_same("scenario.grid.rows", scenario.rows, common_.rows);
+  check_same("scenario.grid.cell_m", scenario.cell_m, common_.cell_m);
+  check_same("scenario.initial_energy_j", scenario.initial_energy_j, own.scenario().initial_energy_j);
+  check_same("the energy of a flown slot (scenario.rotor), in joules,", field.flying_energy_j(),
+             own.flying_energy_j());
+  check_same("the energy of a hovered slot (scenario.rotor), in joules,", field.hovering_energy_j(),
+             own.hovering_energy_j());
+  check_same("scenario.maximum_aoi", scenario.maximum_aoi.value_or(scenario.slots),
+             common_.maximum_aoi.value_or(scenario.slots));
+  check_cell("scenario.start", scenario.start, common_.start, ranges_.any_start);
+  check_cell("scenario.stop", scenario.stop, common_.stop, ranges_.any_stop);
+  // Only the ratios of weights matter, since they are divided by their sum.
+  const auto [least, most] =
+      std::minmax_element(scenario.sensors.begin(), scenario.sensors.end(),
+                          [](const Sensor& a, const Sensor& b) { return a.weight < b.weight; });
+  const double largest_ratio = ranges_.weight.maximum / ranges_.weight.minimum;
+  constexpr double kLeeway = 1 + 1e-6;
+  check(most->weight <= least->weight * largest_ratio * kLeeway, "the ratio of two sensors' weights",
+        fmt::format("{} : {}", most->weight, least->weight), fmt::format("at most {:g}", largest_ratio));
+}
+
+std::string UavFields::GroupOf(const Episode& episode) const {
+  const size_t sensors = FieldIn(episode.state(0)).sensors.size();
+  return fmt::format("{} sensor{}", sensors, sensors == 1 ? "" : "s");
 }
 
 int UavFields::DrawPlace(RandomStream& stream) const {
@@ -310,6 +391,10 @@ ActionRange UavFields::Towards(std::span<const float> state, int place) const {
   const Cell goal = {place % common_.columns, place / common_.columns};
   const int first = static_cast<int>(MoveTowards(CellIn(state), goal)) * schedules();
   return {first, first + schedules()};
+}
+
+const UavFields* AsUavFields(const World& world) {
+  return dynamic_cast<const UavFields*>(&world);
 }
 
 }  // namespace fresco

@@ -47,16 +47,20 @@ class UavFields : public World {
   UavFields(Scenario common, FieldRanges ranges, UavOptions options = {});
 
   std::unique_ptr<Environment> NewEnvironment() const override;
-  /// An observation for agent.set_network. The UAV's own inputs: column, row, the way to the stop (columns,
-  /// rows), phi / T, Delta / E_max, R. Then for each of the most sensors: 1 if the field has it, the way to
-  /// it (east, north), its distance, 1 if it is covered, delta / T and theta; all 0 if the field does not
-  /// have it. Lengths are divided by the grid's longer side.
+  /// WriteSets (network_input.h) of the field that the state says.
   void Observe(std::span<const float> state, std::span<float> observation) const override;
   /// These four are those of the episode's field.
   void Judge(const Episode& episode, std::span<double> figures) const override;
   bool Succeeded(const Episode& episode) const override;
   EpisodeAccount Tell(const Episode& flight) const override;
   int64_t bytes() const override { return 0; }
+  /// Those of the episode's field.
+  std::vector<ReferencePolicy> reference_policies() const override;
+  Episode FlyReference(const std::string& name, uint64_t seed) const override;
+  /// `other` must be a field within the ranges, or one of such fields in every episode.
+  void CheckServes(const World& other) const override;
+  /// The number of sensors: "3 sensors".
+  std::string GroupOf(const Episode& episode) const override;
   bool has_places() const override { return true; }
   int DrawPlace(RandomStream& stream) const override;
   bool IsAt(std::span<const float> state, int place) const override;
@@ -69,6 +73,9 @@ class UavFields : public World {
   /// The field of an episode as a world, and the episode as one of that world.
   std::unique_ptr<const UavWorld> WorldOf(const Episode& episode) const;
   Episode InItsField(const UavWorld& field, const Episode& episode) const;
+  /// The field of an episode's seed as a world, and a flight there as the episode of that seed.
+  std::unique_ptr<const UavWorld> WorldOf(uint64_t seed) const;
+  Episode FromItsField(const UavWorld& field, uint64_t seed, const Episode& flight) const;
 
   const UavOptions& options() const { return options_; }
   UavFieldsLayout layout() const { return {static_cast<size_t>(ranges_.sensors.maximum)}; }
@@ -82,10 +89,14 @@ class UavFields : public World {
 
  private:
   void CheckEveryStopIsReachable() const;
+  void CheckServesField(const UavWorld& field) const;
 
   Scenario common_;
   FieldRanges ranges_;
   UavOptions options_;
 };
+
+/// The world as UavFields; null if it is another kind of world.
+const UavFields* AsUavFields(const World& world);
 
 }  // namespace fresco

@@ -134,7 +134,10 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.figures = {{"average_aoi", "slots"}, {"total_aoi", "slots"}, {"sum_aoi", "slots"}};
   description.less_is_better = true;
   description.success = "arrived";
-  description.sets = NetworkInput::Sets(static_cast<int>(sensors), options.network_input);
+  description.copies = true;
+  if (options.network_input.sets) {
+    description.sets = SetsOf(static_cast<int>(sensors));
+  }
   return description;
 }
 
@@ -277,7 +280,7 @@ std::vector<ReferencePolicy> UavWorld::reference_policies() const {
   return {{kAoiPolicy, "AoI-based"}, {kDistancePolicy, "distance-based"}};
 }
 
-Episode UavWorld::FlyReference(const std::string& name) const {
+Episode UavWorld::FlyReference(const std::string& name, uint64_t /*seed*/) const {
   FRESCO_CHECK(name == kAoiPolicy || name == kDistancePolicy);
   return FlyBaseline(*this, name == kAoiPolicy ? BaselineKind::kAoi : BaselineKind::kDistance);
 }

@@ -86,7 +86,8 @@ class UavWorld : public World {
   EpisodeAccount Tell(const Episode& flight) const override;
   /// The paper's two comparison algorithms (worlds/uav/baselines.h).
   std::vector<ReferencePolicy> reference_policies() const override;
-  Episode FlyReference(const std::string& name) const override;
+  /// The seed decides nothing.
+  Episode FlyReference(const std::string& name, uint64_t seed = 0) const override;
   /// The places of excursions are the cells.
   bool has_places() const override { return true; }
   /// The index of a cell (CellIndex).
