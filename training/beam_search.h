@@ -1,8 +1,8 @@
 // A beam search for a good episode: because the world is known, the values of a network can guide a search
 // through many episodes side by side. Of the partial episodes of each length it keeps the `width` best ones,
-// those with the largest sum of what they have earned and of what the network expects from their last state
-// on; of several that are in the same state, the one that has earned most. The result is a pure function of
-// world, seed, parameters and width. Only one thread at a time may use an object.
+// those with the largest sum of what they earned before their last action and of what the network expects of
+// that action; of several that lead to the same state, the one that has earned most. The result is a pure
+// function of world, seed, parameters and width. Only one thread at a time may use an object.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,6 @@ class BeamSearch {
   /// CHECKs that the world's environments can be copied (WorldDescription::copies) and that `width` is at
   /// least 1.
   BeamSearch(const Experiment& experiment, int width);
-
-  /// The memory of an object, bytes.
-  static int64_t BytesFor(const Experiment& experiment, int width);
 
   /// Begins with the episode of a seed.
   void Begin(uint64_t seed, std::shared_ptr<const Vector> parameters);
@@ -47,10 +44,8 @@ class BeamSearch {
     std::unique_ptr<Environment> environment;
     std::vector<float> state;
     std::vector<uint8_t> mask;
-    std::vector<float> action_values;  // what the network expects of each action
     Origin origin;
     double earned = 0;  // the sum of its rewards
-    double value = 0;   // the same, and what the network expects from here on
   };
   /// An action that a node may take.
   struct Choice {
@@ -59,21 +54,18 @@ class BeamSearch {
   };
 
   void Choose();
-  void Try();
-  void DropRepeatedStates();
+  bool Try(const Origin& origin, Node& node);
   void Evaluate();
-  void Keep();
 
   Experiment experiment_;
   size_t width_;
   std::shared_ptr<const Vector> parameters_;
   std::unique_ptr<NetworkWorkspace> workspace_;
-  std::vector<Node> nodes_;       // the partial episodes, best first; only the first `kept_` are in use
-  std::vector<Node> candidates_;  // longer by a step; only those that `tried_` names are in use
-  size_t kept_ = 0;
-  std::vector<size_t> tried_;
+  std::vector<Node> nodes_;   // the partial episodes; only the first `count_` are in use
+  std::vector<Node> longer_;  // room for those that are longer by a step
+  size_t count_ = 0;
   std::vector<Choice> choices_;
-  std::vector<std::vector<Origin>> steps_;  // by step: the origins of the nodes that were kept
+  std::vector<std::vector<Origin>> steps_;  // by step: the origins of its nodes
   double best_return_ = 0;
   size_t best_step_ = 0;  // the last step of the best episode that has ended; none if it is 0
   Origin best_origin_;

@@ -151,7 +151,7 @@ void WriteFiles(const std::filesystem::path& directory) {
   }
   training.best = {{1, 100, 5, 1, {5, 30, 30}}, std::make_shared<const Vector>(parameters)};
   training.last_evaluation = training.delivered = training.best->evaluation;
-  training.partial_evaluation = {1, 1, {5, 30, 30}};
+  training.partial_evaluation = {1, 1, {5, 30, 30}, {5}};
   checkpoint.metrics = "version,total_aoi\n1,30\n";
   checkpoint.counters = {{"received", 3}};
   Corpus(directory, "checkpoint_fuzz").Add(SerializeCheckpoint(checkpoint));

@@ -117,7 +117,7 @@ TEST(ScenarioMessages, AreThoseOfTheUavsWorldAndNoneOfAnother) {
   const Experiment uav = Experiment::Parse("", "the test");
   EXPECT_TRUE(HasFlights(uav));
   EXPECT_EQ(ScenarioMessages(uav).size(), 1);
-  const Episode flight = uav.world().FlyReference("aoi");
+  const Episode flight = uav.world().FlyReference("aoi", 0);
   EXPECT_EQ(FlightMessages(uav, flight, "aoi").size(), flight.states.size() / uav.world().state_size());
   const Experiment other = Experiment::Parse("cartpole {}", "the test");
   EXPECT_FALSE(HasFlights(other));

@@ -41,6 +41,12 @@ std::string CartPoleLine(const learner_status_t& status) {
   return ProgressLine(status, CartPole(500).description());
 }
 
+/// The gap of an average AoI to the optimum of kProved.
+std::string GapText(const std::string& average_aoi, const std::string& optimum) {
+  const bool proved = optimum.find("\"proved\"") != std::string::npos;
+  return average_aoi != "null" && proved ? std::to_string((std::stod(average_aoi) / 12.5 - 1) * 100) : "null";
+}
+
 std::string Summary(const std::string& average_aoi, const std::string& optimum) {
   const std::string success = average_aoi == "null" ? "null" : "1";
   const std::string arrived = average_aoi == "null" ? "null" : "true";
@@ -48,12 +54,30 @@ std::string Summary(const std::string& average_aoi, const std::string& optimum) 
              {"name": "total_aoi", "unit": "slots"}, {"name": "sum_aoi", "unit": "slots"}]},
              "score": )" +
          average_aoi + R"(, "success": )" + success + R"(, "average_aoi": )" + average_aoi +
-         R"(, "total_aoi": 2804, "sum_aoi": 40.057, "arrived": )" + arrived + R"(, "gap_percent": null, )" +
-         optimum +
+         R"(, "total_aoi": 2804, "sum_aoi": 40.057, "arrived": )" + arrived + R"(, "gap_percent": )" +
+         GapText(average_aoi, optimum) + ", " + optimum +
          R"(, "baselines": {"aoi": {"title": "AoI-based", "average_aoi": 17.5, "total_aoi": 3684,
-                                    "sum_aoi": 52.6, "arrived": true},
+                                    "sum_aoi": 52.6, "arrived": true, "gap_percent": )" +
+         GapText("17.5", optimum) + R"(},
              "distance": {"title": "distance-based", "average_aoi": 17.0, "total_aoi": 3589, "sum_aoi": 51.3,
                           "arrived": false}}})";
+}
+
+/// Of four judged episodes in two groups; `unproved` is what one of them has for its optimum.
+std::string SummaryOfFields(const std::string& optimum_of_last, const std::string& gap_of_last) {
+  return R"({"world": {"name": "uav", "success": "arrived", "figures": [{"name": "average_aoi", "unit": "slots"}]},
+             "score": 11.75, "success": 1, "average_aoi": 11.75, "arrived": true, "gap_percent": null,
+             "optimal_average_aoi": null, "best_found_average_aoi": 9, "lower_bound_average_aoi": 9,
+             "optimum_search": "limit", "judged_episodes": [
+    {"seed": 1, "group": "10 sensors", "average_aoi": 12, "optimal_average_aoi": 10, "gap_percent": 20,
+     "baselines": {"aoi": 13, "distance": 14}},
+    {"seed": 2, "group": "2 sensors", "average_aoi": 11, "optimal_average_aoi": 10, "gap_percent": 10,
+     "baselines": {"aoi": 13, "distance": 12}},
+    {"seed": 3, "group": "2 sensors", "average_aoi": 10, "optimal_average_aoi": 10, "gap_percent": 0,
+     "baselines": {"aoi": 14, "distance": 15}},
+    {"seed": 4, "group": "2 sensors", "average_aoi": 14, "optimal_average_aoi": )" +
+         optimum_of_last + R"(, "gap_percent": )" + gap_of_last + R"(,
+     "baselines": {"aoi": 11, "distance": 15}}]})";
 }
 
 /// Of a world with chance, without baselines and without a search for the optimum.
@@ -247,6 +271,27 @@ TEST(ResultTable, HasALineForEveryRow) {
   EXPECT_EQ(std::count(unproved.begin(), unproved.end(), '\n'), 6);
   EXPECT_EQ(unproved.find("exact optimum  "), std::string::npos);
   EXPECT_THAT(unproved, HasSubstr("The exact optimum is not proved"));
+}
+
+TEST(GapRows, HaveTheGapsOfEveryGroupAndOfAll) {
+  EXPECT_EQ(GapRows(SummaryOfFields("10", "40")),
+            (Rows{{"episodes with", "number", "gap", "median", "worst", "better baseline"},
+                  {"2 sensors", "3", "16.67 %", "10.00 %", "40.00 %", "23.33 %"},
+                  {"10 sensors", "1", "20.00 %", "20.00 %", "20.00 %", "30.00 %"},
+                  {"all", "4", "17.50 %", "15.00 %", "40.00 %", "25.00 %"}}));
+}
+
+TEST(GapRows, LeaveOutEpisodesWithoutAProof) {
+  const auto rows = GapRows(SummaryOfFields("null", "null"));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[1], (std::vector<std::string>{"2 sensors", "2", "5.00 %", "5.00 %", "10.00 %", "30.00 %"}));
+  EXPECT_THAT(OptimumNote(SummaryOfFields("null", "null")),
+              testing::HasSubstr("The exact optimum of 1 episodes is not proved"));
+}
+
+TEST(GapRows, AreNoneWithoutJudgedEpisodes) {
+  EXPECT_TRUE(GapRows(Summary("14", kProved)).empty());
+  EXPECT_TRUE(GapRows(CartPoleSummary("300", "0")).empty());
 }
 
 }  // namespace

@@ -33,10 +33,10 @@ class CheckpointFile : public ::testing::Test {
     training.adam = {650, 0.5, 0.75, Parameters(5), Parameters(6)};
     training.replay = {std::make_shared<const Episode>(Truncated()),
                        std::make_shared<const Episode>(Terminal())};
-    training.partial_evaluation = {3, 2, {4.5, 700, 13.5}};
-    training.last_evaluation = Evaluation{5, 500, 8, 0.25, {1.5, 3, 4.5}};
-    training.best = BestNetwork{{4, 400, 7, 0.75, {1.25, 2, 3.75}}, Shared(7)};
-    training.delivered = Evaluation{6, 600, 10, 0.5, {1.125, 5, 6.5}};
+    training.partial_evaluation = {3, 2, {4.5, 700, 13.5}, {1, 1.5, 2}};
+    training.last_evaluation = Evaluation{5, 500, 8, 0.25, {1.5, 3, 4.5}, {1.25, 1.75}};
+    training.best = BestNetwork{{4, 400, 7, 0.75, {1.25, 2, 3.75}, {1.25}}, Shared(7)};
+    training.delivered = Evaluation{6, 600, 10, 0.5, {1.125, 5, 6.5}, {1, 1.25}};
     checkpoint_.resumptions = 2;
     checkpoint_.wall_s = 3.5;
     checkpoint_.metrics = "a,b\n";
@@ -60,6 +60,7 @@ class CheckpointFile : public ::testing::Test {
     EXPECT_EQ(read.episodes, written.episodes);
     EXPECT_EQ(read.success, written.success);
     EXPECT_EQ(read.figures, written.figures);
+    EXPECT_EQ(read.scores, written.scores);
   }
   /// What is said of a checkpoint with such an episode in its replay memory.
   std::string RefusalOf(const Episode& episode) {
@@ -109,6 +110,7 @@ TEST_F(CheckpointFile, ReadsBackEveryField) {
   EXPECT_EQ(training.partial_evaluation.episodes, 3);
   EXPECT_EQ(training.partial_evaluation.successes, 2);
   EXPECT_EQ(training.partial_evaluation.figures, (std::vector<double>{4.5, 700, 13.5}));
+  EXPECT_EQ(training.partial_evaluation.scores, (std::vector<double>{1, 1.5, 2}));
   ExpectEqual(*training.last_evaluation, *checkpoint_.training.last_evaluation);
   ExpectEqual(training.best->evaluation, checkpoint_.training.best->evaluation);
   ExpectEqual(*training.delivered, *checkpoint_.training.delivered);

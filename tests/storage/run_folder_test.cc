@@ -43,7 +43,7 @@ class RunFolderTest : public ::testing::Test {
 };
 
 Evaluation EvaluationOf(int64_t version, bool arrived) {
-  return {version, version * 100, version * 10, arrived ? 1.0 : 0.0, {8.5, 1234, 17.25}};
+  return {version, version * 100, version * 10, arrived ? 1.0 : 0.0, {8.5, 1234, 17.25}, {8.5}};
 }
 
 TEST_F(RunFolderTest, BeginsWithTheWholeConfigurationInAFolderOfItsOwn) {
@@ -60,9 +60,14 @@ TEST_F(RunFolderTest, HasTheFilesOfARunAndNothingElse) {
   EXPECT_EQ(Names(), std::set<std::string>{"config.textproto"});
   folder.AddMetrics(EvaluationOf(1, true), {}, 1);
   folder.WriteBest({EvaluationOf(1, true), std::make_shared<const Vector>(Parameters(1))});
+  folder.WriteOptimum({0}, {nullptr});
   folder.Finish();
+  EXPECT_EQ(Names().count("optimum.json"), 0u);
+  const auto plan = std::make_shared<const Plan>(PlanOptimally(experiment_.world(), 0));
+  folder.WriteOptimum({0}, {plan});
+  folder.Finish();
+  EXPECT_TRUE(SameBits(folder.ReadOptimum(std::vector<uint64_t>{0}).front()->flight, plan->flight));
   folder.WriteFinal(Parameters(1), {});
-  folder.WriteOptimum("{}");
   folder.WriteSummary("{}");
   EXPECT_EQ(Names(), (std::set<std::string>{"best.network", "config.textproto", "final.network",
                                             "metrics.csv", "optimum.json", "summary.json"}));
@@ -91,7 +96,7 @@ TEST_F(RunFolderTest, AddsALineOfMetricsWithEveryEvaluation) {
 
 TEST_F(RunFolderTest, HasTheColumnsOfTheWorld) {
   RunFolder folder(directory_, SmallCartPole());
-  folder.AddMetrics({4, 400, 40, 1.0 / 3, {11.25}}, {}, 1.5);
+  folder.AddMetrics({4, 400, 40, 1.0 / 3, {11.25}, {11.25}}, {}, 1.5);
   folder.Finish();
   EXPECT_EQ(Content("metrics.csv"),
             "wall_s,episodes,transitions,updates,version,epsilon,learning_rate,loss,balanced,return\n"

@@ -132,6 +132,10 @@ void ExpectMeans(const RecordedRun& run, size_t first, const Evaluation& evaluat
   }
   ASSERT_EQ(evaluation.figures.size(), 1u);
   EXPECT_NEAR(evaluation.score(), earned / kEpisodesPerEvaluation, 1e-12);
+  ASSERT_EQ(evaluation.scores.size(), size_t{kEpisodesPerEvaluation});
+  for (size_t i = 0; i < evaluation.scores.size(); ++i) {
+    EXPECT_EQ(evaluation.scores[i], run.episodes[positions[first + i]].transitions());
+  }
   EXPECT_NEAR(evaluation.success, cut_off / 3.0, 1e-12);
 }
 
@@ -283,6 +287,34 @@ TEST_F(TrainerBestOfChance, HasTheLargestScoreOfEqualSuccessAndIsTheEarliestOfEq
   EXPECT_NE(Evaluate({longer_, cut_off_, longer_}), largest);
   Evaluate({cut_off_, shorter_, shorter_});
   ExpectBest(largest);
+}
+
+TEST(TrainerInCartPole, FliesTheSameEpisodesInEveryEvaluationIfTheyAreFixed) {
+  const FinishedRun fresh(SmallCartPole());
+  const FinishedRun run(SmallCartPole({{"schedule.fixed_evaluation_episodes", "true"}}));
+  EXPECT_TRUE(run.trainer.current() == fresh.trainer.current());  // evaluations have no influence
+  const std::vector<size_t> positions = EvaluationsIn(run);
+  ASSERT_GT(positions.size(), 5u * kEpisodesPerEvaluation);
+  const std::vector<uint64_t> seeds = FixedEvaluationSeeds(run.experiment.schedule());
+  const std::vector<uint64_t> delivery = FixedDeliverySeeds(run.experiment.schedule());
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const bool delivered = i + kEpisodesPerEvaluation >= positions.size();
+    EXPECT_EQ(run.orders[positions[i]].seed, (delivered ? delivery : seeds)[i % kEpisodesPerEvaluation]);
+  }
+  for (const Evaluation& evaluation : run.evaluations) {
+    EXPECT_EQ(evaluation.scores.size(), seeds.size());
+  }
+}
+
+TEST(FixedEvaluationSeeds, AreThreeAndNoneOfThemJudgesTheDelivery) {
+  const Experiment experiment = SmallCartPole();
+  std::vector<uint64_t> seeds = FixedEvaluationSeeds(experiment.schedule());
+  const std::vector<uint64_t> delivery = FixedDeliverySeeds(experiment.schedule());
+  seeds.insert(seeds.end(), delivery.begin(), delivery.end());
+  ASSERT_EQ(seeds.size(), 6u);
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    EXPECT_EQ(seeds[i], EvaluationSeed(kCartPoleSeed, static_cast<int64_t>(i)));
+  }
 }
 
 }  // namespace

@@ -228,12 +228,14 @@ TEST_F(TrainerResumeRefusal, NamesAnotherNumberOfTransitionsThanTheReplayMemoryH
 TEST_F(TrainerResumeRefusal, NamesEvaluationsThatAreNone) {
   const std::vector<std::function<void(TrainingState&)>> lies = {
       [](TrainingState& state) {
-        state.partial_evaluation = {1, 0, {1, 2, 3}};
+        state.partial_evaluation = {1, 0, {1, 2, 3}, {1}};
       },  // one episode is all of it
       [](TrainingState& state) { state.partial_evaluation.figures = {1}; },
+      [](TrainingState& state) { state.partial_evaluation.scores = {1, 2, 3}; },
       [](TrainingState& state) { state.partial_evaluation.successes = -1; },
       [](TrainingState& state) { state.partial_evaluation.episodes = -1; },
       [](TrainingState& state) { state.last_evaluation->figures.pop_back(); },
+      [](TrainingState& state) { state.last_evaluation->scores.pop_back(); },
       [](TrainingState& state) { state.best->evaluation.figures.push_back(0); },
       [](TrainingState& state) { state.delivered = Evaluation{}; },
   };

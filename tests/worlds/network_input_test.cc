@@ -63,13 +63,15 @@ TEST(NetworkInput, ShowsEverySensorFromHereWithSets) {
       .slot = 20, .cell = {11, 8}, .time_margin = 35, .energy_margin_j = 5500, .aoi = {7, 14, 70}};
   EXPECT_THAT(
       InputOf(scenario, state, {.sets = true}),
-      ElementsAre(11.0f / 19.0f, 8.0f / 19.0f, FloatEq(-1.0f / 20), FloatEq(11.0f / 20), 0.5f, 0.25f,  //
-                  1.0f, FloatEq(-0.15f), FloatEq(-0.05f), FloatEq(79.0569415f / 500), 1.0f, 0.1f, 0.75f, 1.0f,
-                  FloatEq(-0.5f), FloatEq(-0.2f), FloatEq(269.258240f / 500), 0.0f, 0.2f, 1.5f, 1.0f,
-                  FloatEq(0.35f), FloatEq(0.55f), FloatEq(325.960120f / 500), 0.0f, 1.0f, 0.75f));
+      ElementsAre(FloatEq(11.0f / 20), FloatEq(8.0f / 20), FloatEq(-1.0f / 20), FloatEq(11.0f / 20), 0.5f,
+                  0.25f,
+                  FloatEq(static_cast<float>(scenario.coverage_radius_m) / 500),  //
+                  1.0f, FloatEq(-0.15f), FloatEq(-0.05f), FloatEq(79.0569415f / 500), 1.0f, 0.1f, 0.25f, 1.0f,
+                  FloatEq(-0.5f), FloatEq(-0.2f), FloatEq(269.258240f / 500), 0.0f, 0.2f, 0.5f, 1.0f,
+                  FloatEq(0.35f), FloatEq(0.55f), FloatEq(325.960120f / 500), 0.0f, 1.0f, 0.25f));
   const UavWorld world(scenario, {.network_input = {.sets = true}});
   ASSERT_TRUE(world.description().sets);
-  EXPECT_EQ(world.description().sets->own_inputs, 6);
+  EXPECT_EQ(world.description().sets->own_inputs, 7);
   EXPECT_EQ(world.description().sets->items, 3);
   EXPECT_EQ(world.description().sets->item_inputs, 7);
   EXPECT_EQ(world.description().sets->groups, kMoves);

@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
+#include "core/error.h"
 #include "tests/worlds/table_one.h"
 #include "worlds/episode.h"
 #include "worlds/uav/flight.h"
@@ -195,6 +197,113 @@ TEST(UavFields, HavePlacesForExcursions) {
     EXPECT_EQ(range.end - range.first, 6);
     EXPECT_EQ(range.first / 6, field.Towards(recorder.state(), place).first / (field.sensors() + 1));
   }
+}
+
+TEST(UavFields, HaveTheBaselinesOfEachField) {
+  const UavFields fields = SomeFields();
+  ASSERT_EQ(fields.reference_policies().size(), 2u);
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    const UavWorld field(fields.Draw(seed), kBothMasks);
+    for (const ReferencePolicy& policy : fields.reference_policies()) {
+      const Episode episode = fields.FlyReference(policy.name, seed);
+      EXPECT_EQ(episode.seed, seed);
+      EXPECT_TRUE(SameBits(fields.InItsField(field, episode), field.FlyReference(policy.name)));
+      EXPECT_EQ(fields.GroupOf(episode), std::to_string(field.sensors()) + " sensors");
+    }
+  }
+}
+
+TEST(UavFields, AreSeenAsAWorldOfTheirFieldIsSeen) {
+  const UavFields fields = SomeFields();
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    const Episode episode = RandomFlight(fields, seed);
+    const UavWorld field(fields.Draw(seed), {{true, true}, {.sets = true}});
+    const Episode in_its_field = fields.InItsField(field, episode);
+    std::vector<float> of_fields(static_cast<size_t>(fields.observation_size()));
+    std::vector<float> of_field(static_cast<size_t>(field.observation_size()));
+    for (size_t i = 0; i <= episode.actions.size(); ++i) {
+      fields.Observe(episode.state(i), of_fields);
+      field.Observe(in_its_field.state(i), of_field);
+      ASSERT_TRUE(std::equal(of_field.begin(), of_field.end(), of_fields.begin())) << seed;
+      EXPECT_TRUE(std::all_of(of_fields.begin() + static_cast<int64_t>(of_field.size()), of_fields.end(),
+                              [](float entry) { return entry == 0; }));
+    }
+  }
+}
+
+TEST(UavFields, GoOnFromWhereAnotherEnvironmentIs) {
+  const UavFields fields = SomeFields();
+  const auto copy = fields.NewEnvironment();
+  std::vector<float> state(static_cast<size_t>(fields.state_size()));
+  std::vector<uint8_t> mask(static_cast<size_t>(fields.actions()));
+  for (uint64_t seed = 0; seed < 20; ++seed) {
+    const Episode episode = RandomFlight(fields, seed);
+    const auto environment = fields.NewEnvironment();
+    environment->Reset(seed);
+    const size_t half = episode.actions.size() / 2;
+    for (size_t i = 0; i < half; ++i) {
+      environment->Step(episode.actions[i]);
+    }
+    copy->CopyFrom(*environment);
+    for (size_t i = half; i < episode.actions.size(); ++i) {
+      EXPECT_EQ(static_cast<float>(copy->Step(episode.actions[i]).reward), episode.rewards[i]);
+      copy->WriteState(state);
+      EXPECT_TRUE(std::equal(state.begin(), state.end(), episode.state(i + 1).begin()));
+    }
+    environment->WriteState(state);  // is where it was
+    EXPECT_TRUE(std::equal(state.begin(), state.end(), episode.state(half).begin()));
+  }
+}
+
+/// The text of the error if a policy for SomeFields does not serve this field; empty if it does.
+std::string Refusal(const World& world, FieldRanges ranges = SomeRanges()) {
+  try {
+    UavFields(TableOne(), ranges, kBothMasks).CheckServes(world);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+Scenario SomeField() {
+  Scenario field = TableOne();
+  field.sensors = {{100, 100, 1}, {200, 300, 3}};
+  return field;
+}
+
+TEST(UavFields, ServeFieldsWithinTheirRangesAndNameWhatIsNot) {
+  EXPECT_EQ(Refusal(UavWorld(SomeField())), "");
+  EXPECT_EQ(Refusal(SomeFields()), "");
+  const auto with = [](auto change) {
+    Scenario field = SomeField();
+    change(field);
+    return Refusal(UavWorld(field));
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(
+      with([](Scenario& field) { field.sensors.pop_back(); }),
+      HasSubstr("the number of sensors (scenario.sensor) 1 is out of range; it was trained for 2 to 5"));
+  EXPECT_THAT(with([](Scenario& field) { field.coverage_radius_m = 130; }),
+              HasSubstr("scenario.coverage_radius_m 130 is out of range; it was trained for 50 to 125"));
+  EXPECT_THAT(with([](Scenario& field) { field.slots = 71; }), HasSubstr("scenario.slots 71"));
+  EXPECT_THAT(with([](Scenario& field) { field.columns = 21; }), HasSubstr("scenario.grid.columns 21"));
+  EXPECT_THAT(with([](Scenario& field) { field.initial_energy_j = 20'000; }),
+              HasSubstr("scenario.initial_energy_j 20000"));
+  EXPECT_THAT(with([](Scenario& field) { field.maximum_aoi = 10; }), HasSubstr("scenario.maximum_aoi 10"));
+  EXPECT_THAT(
+      with([](Scenario& field) { field.sensors[0].weight = 0.5; }),
+      HasSubstr("the ratio of two sensors' weights 3 : 0.5 is out of range; it was trained for at most 4"));
+  EXPECT_EQ(with([](Scenario& field) { field.start = {3, 4}; }), "");
+  FieldRanges one_start = SomeRanges();
+  one_start.any_start = false;
+  EXPECT_EQ(Refusal(UavWorld(SomeField()), one_start), "");
+  Scenario elsewhere = SomeField();
+  elsewhere.start = {3, 4};
+  EXPECT_THAT(Refusal(UavWorld(elsewhere), one_start), HasSubstr("scenario.start (3, 4)"));
+  EXPECT_THAT(Refusal(SomeFields(), one_start), HasSubstr("start and stop"));
+  FieldRanges fewer = SomeRanges();
+  fewer.sensors = {2, 4};
+  EXPECT_THAT(Refusal(SomeFields(), fewer), HasSubstr("the number of sensors"));
 }
 
 }  // namespace
