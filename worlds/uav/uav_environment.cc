@@ -73,7 +73,7 @@ void UavEnvironment::Collect(int schedule) {
   }
 }
 
-// A move off the grid leaves the UAV where it is, so it takes the energy of a hover.
+// A move off the grid or over an obstacle leaves the UAV where it is, so it takes the energy of a hover.
 double UavEnvironment::SlotEnergy(Cell next) const {
   return next == state_.cell ? world_->hovering_energy_j() : world_->flying_energy_j();
 }
@@ -119,6 +119,9 @@ std::array<uint8_t, kMoves> UavEnvironment::SafeMoves() const {
   std::array<uint8_t, kMoves> safe{};
   for (size_t move = 0; move < static_cast<size_t>(Move::kHover); ++move) {
     const Cell next = {cell.column + kMoveSteps[move].column, cell.row + kMoveSteps[move].row};
+    if (world.map() != nullptr && !world.map()->MayFly(next)) {
+      continue;  // it has no distance
+    }
     safe[move] =
         static_cast<uint8_t>(world.OnGrid(next)) & (world.DistanceToStop(next) < distance ? closer : farther);
   }

@@ -52,7 +52,8 @@ class UavEnvironment : public Environment {
   /// The same with the world's options.
   void WriteMask(std::span<uint8_t> mask) const override { WriteMask(world_->mask_options(), mask); }
 
-  /// Whether the move stays on the grid and the stop can still be reached after it.
+  /// Whether the move stays on the grid and off cells that can't be flown over, and the stop can still be
+  /// reached after it.
   bool IsSafe(Move move) const { return SafeMoves()[static_cast<size_t>(move)] != 0; }
 
  private:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -76,8 +77,9 @@ WorldDescription DescribeFields(const Scenario& common, const FieldRanges& range
     description.state.push_back({fmt::format("sensor_{}_y_m", sensor), "m"});
     description.state.push_back({fmt::format("sensor_{}_weight", sensor), ""});
   }
-  description.sets = {kOwnNumbers, ranges.sensors.maximum, kSensorNumbers, kMoves};
-  description.observation_size = kOwnNumbers + kSensorNumbers * ranges.sensors.maximum;
+  const int of_map = common.map != nullptr ? static_cast<int>(MapInput::kInputs) : 0;
+  description.sets = {kOwnNumbers + of_map, ranges.sensors.maximum, kSensorNumbers + of_map, kMoves};
+  description.observation_size = kOwnNumbers + of_map + (kSensorNumbers + of_map) * ranges.sensors.maximum;
   return description;
 }
 
@@ -131,13 +133,56 @@ UavFields::UavFields(Scenario common, FieldRanges ranges, UavOptions options)
       ranges_(ranges),
       options_{options.mask, {}} {
   CheckEveryStopIsReachable();
+  if (common_.map != nullptr) {
+    RandomSensors(common_, ranges_.sensors.maximum, 0);  // throws if there are too few cells
+    map_input_.emplace(*common_.map, common_.cell_m, ranges_.coverage_radius_m.maximum);
+  }
+}
+
+/// The cells from which starts and stops are drawn. There must be a map.
+const std::vector<Cell>& UavFields::CellsToDraw() const {
+  const std::vector<Cell>& zones = common_.map->zones();
+  return zones.empty() ? common_.map->CellsAround(common_.start) : zones;
+}
+
+/// The distances from a start to a stop that can be drawn, in ascending order.
+std::vector<int> UavFields::DistancesToStops(const UavWorld& largest) const {
+  std::vector<int> distances;
+  if (!ranges_.any_start && !ranges_.any_stop) {
+    distances = {largest.DistanceToStop(common_.start)};
+  } else if (common_.map == nullptr) {
+    distances.resize(static_cast<size_t>(common_.columns + common_.rows - 1));
+    std::iota(distances.begin(), distances.end(), 0);
+  } else {
+    const std::vector<Cell> starts = ranges_.any_start ? CellsToDraw() : std::vector<Cell>{common_.start};
+    const std::vector<Cell> stops = ranges_.any_stop ? CellsToDraw() : std::vector<Cell>{common_.stop};
+    std::vector<uint8_t> found(ObstacleMap::kCutOff + 1);
+    for (const Cell start : starts) {
+      for (const Cell stop : stops) {
+        const int distance = common_.map->Distance(start, stop);
+        if (distance == ObstacleMap::kCutOff) {
+          throw UsageError(
+              fmt::format("scenario.random_field: a start in column {}, row {} and a stop in column {}, row "
+                          "{} are cut off from "
+                          "each other by the obstacles of scenario.map_row; allowed: only starts and stops "
+                          "between which the "
+                          "UAV can fly",
+                          start.column, start.row, stop.column, stop.row));
+        }
+        if (std::exchange(found[static_cast<size_t>(distance)], uint8_t{1}) == 0) {
+          distances.push_back(distance);
+        }
+      }
+    }
+    std::sort(distances.begin(), distances.end());
+  }
+  return distances;
 }
 
 void UavFields::CheckEveryStopIsReachable() const {
-  Scenario scenario = Largest(common_, ranges_);
-  const UavWorld largest(scenario, options_);
-  const bool anywhere = ranges_.any_start || ranges_.any_stop;
-  const int farthest = anywhere ? common_.columns + common_.rows - 2 : largest.DistanceToStop(common_.start);
+  const UavWorld largest(Largest(common_, ranges_), options_);
+  const std::vector<int> distances = DistancesToStops(largest);
+  const int farthest = distances.back();
   for (int slots = ranges_.slots.minimum; slots <= ranges_.slots.maximum; ++slots) {
     if (farthest > slots - 1) {
       throw UsageError(
@@ -145,7 +190,7 @@ void UavFields::CheckEveryStopIsReachable() const {
                       "start; allowed: at least {}",
                       slots, farthest, farthest + 1));
     }
-    for (int distance = anywhere ? 0 : farthest; distance <= farthest; ++distance) {
+    for (const int distance : distances) {
       const double needed_j = CompletionEnergy(largest, distance, slots - 1);
       if (needed_j > common_.initial_energy_j) {
         throw UsageError(
@@ -162,15 +207,27 @@ std::unique_ptr<Environment> UavFields::NewEnvironment() const {
   return std::make_unique<UavFieldsEnvironment>(*this);
 }
 
+/// Draws a start or a stop if any is allowed; otherwise returns the given one.
+Cell UavFields::DrawStart(bool any, Cell given, RandomStream& stream) const {
+  if (!any) {
+    return given;
+  }
+  if (common_.map == nullptr) {
+    return DrawCell(common_, stream);
+  }
+  const std::vector<Cell>& cells = CellsToDraw();
+  return cells[stream.NextBelow(static_cast<uint32_t>(cells.size()))];
+}
+
 Scenario UavFields::Draw(uint64_t seed) const {
   RandomStream stream(seed, RandomPurpose::kEpisodeStart, 0, 0);
   Scenario field = common_;
   const int sensors = DrawInteger(ranges_.sensors, stream);
   field.coverage_radius_m = DrawNumber(ranges_.coverage_radius_m, stream);
   field.slots = DrawInteger(ranges_.slots, stream);
-  field.start = ranges_.any_start ? DrawCell(common_, stream) : common_.start;
-  field.stop = ranges_.any_stop ? DrawCell(common_, stream) : common_.stop;
-  field.sensors = RandomSensors(common_.columns, common_.rows, common_.cell_m, sensors, seed);
+  field.start = DrawStart(ranges_.any_start, common_.start, stream);
+  field.stop = DrawStart(ranges_.any_stop, common_.stop, stream);
+  field.sensors = RandomSensors(field, sensors, seed);
   for (Sensor& sensor : field.sensors) {
     sensor = {AsInAState(sensor.x_m), AsInAState(sensor.y_m), DrawNumber(ranges_.weight, stream)};
   }
@@ -210,6 +267,11 @@ Scenario UavFields::FieldIn(std::span<const float> state) const {
   return field;
 }
 
+bool UavFields::IsCovered(Cell cell, const Sensor& sensor, double radius_m, double distance_m) const {
+  return IsWithin(radius_m, distance_m) &&
+         (common_.map == nullptr || common_.map->HasLineOfSight(cell, sensor, common_.cell_m));
+}
+
 void UavFields::Observe(std::span<const float> state, std::span<float> observation) const {
   FRESCO_CHECK(state.size() == layout().size());
   FRESCO_CHECK(observation.size() == static_cast<size_t>(observation_size()));
@@ -231,10 +293,16 @@ void UavFields::Observe(std::span<const float> state, std::span<float> observati
   *input++ = state[kTimeMarginField] / slots;
   *input++ = state[kEnergyMarginField] / static_cast<float>(common_.initial_energy_j);
   *input++ = radius_m / longer_side_m;
+  if (map_input_) {
+    const Cell stop = {static_cast<int>(state[at.stop()]), static_cast<int>(state[at.stop() + 1])};
+    map_input_->WriteWayToStop(cell, stop, {input, MapInput::kInputs});
+    input += MapInput::kInputs;
+  }
+  const size_t sensor_numbers = kSensorNumbers + (map_input_ ? MapInput::kInputs : 0);
   for (size_t number = 0; number < at.most; ++number) {
     const std::span<const float> fields = state.subspan(at.sensor(number), 3);
     if (fields[2] == 0) {
-      input = std::fill_n(input, kSensorNumbers, 0.0f);
+      input = std::fill_n(input, sensor_numbers, 0.0f);
       continue;
     }
     const Sensor sensor = {fields[0], fields[1], fields[2]};
@@ -243,9 +311,13 @@ void UavFields::Observe(std::span<const float> state, std::span<float> observati
     *input++ = static_cast<float>(sensor.x_m - cell.column * common_.cell_m) / longer_side_m;
     *input++ = static_cast<float>(sensor.y_m - cell.row * common_.cell_m) / longer_side_m;
     *input++ = static_cast<float>(distance_m) / longer_side_m;
-    *input++ = IsWithin(radius_m, distance_m) ? 1.0f : 0.0f;
+    *input++ = IsCovered(cell, sensor, radius_m, distance_m) ? 1.0f : 0.0f;
     *input++ = state[kAoiField + number] / slots;
     *input++ = fields[2] / total_weight;
+    if (map_input_) {
+      map_input_->WriteWayToSensor(cell, sensor, radius_m, {input, MapInput::kInputs});
+      input += MapInput::kInputs;
+    }
   }
 }
 
@@ -296,8 +368,18 @@ EpisodeAccount UavFields::Tell(const Episode& flight) const {
   return field->Tell(InItsField(*field, flight));
 }
 
+int64_t UavFields::bytes() const {
+  return map_input_ ? common_.map->bytes() + map_input_->bytes() : 0;
+}
+
 int UavFields::DrawPlace(RandomStream& stream) const {
-  const Cell cell = DrawCell(common_, stream);
+  Cell cell;
+  if (common_.map == nullptr) {
+    cell = DrawCell(common_, stream);
+  } else {
+    const std::vector<Cell>& cells = common_.map->CellsAround(common_.start);
+    cell = cells[stream.NextBelow(static_cast<uint32_t>(cells.size()))];
+  }
   return cell.row * common_.columns + cell.column;
 }
 
@@ -308,7 +390,7 @@ bool UavFields::IsAt(std::span<const float> state, int place) const {
 
 ActionRange UavFields::Towards(std::span<const float> state, int place) const {
   const Cell goal = {place % common_.columns, place / common_.columns};
-  const int first = static_cast<int>(MoveTowards(CellIn(state), goal)) * schedules();
+  const int first = static_cast<int>(MoveTowards(common_.map.get(), CellIn(state), goal)) * schedules();
   return {first, first + schedules()};
 }
 

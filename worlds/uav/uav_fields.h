@@ -5,8 +5,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "worlds/uav/map_input.h"
 #include "worlds/uav/uav_world.h"
 
 namespace fresco {
@@ -20,11 +23,13 @@ struct Interval {
 
 /// What differs from field to field.
 struct FieldRanges {
-  Interval<int> sensors;               ///< N; they are anywhere over the grid (RandomSensors)
+  Interval<int> sensors;               ///< N; they are anywhere (RandomSensors)
   Interval<double> weight;             ///< of each sensor
   Interval<double> coverage_radius_m;  ///< R
   Interval<int> slots;                 ///< T
-  bool any_start = false;              ///< every cell is as likely; otherwise always the scenario's
+  /// Every cell is as likely (with a map: of its cells of kind kStartAndLanding, or, if it has none, of those
+  /// that flights from the scenario's start lead to); otherwise always the scenario's.
+  bool any_start = false;
   bool any_stop = false;
 };
 
@@ -50,13 +55,15 @@ class UavFields : public World {
   /// An observation for agent.set_network. The UAV's own inputs: column, row, the way to the stop (columns,
   /// rows), phi / T, Delta / E_max, R. Then for each of the most sensors: 1 if the field has it, the way to
   /// it (east, north), its distance, 1 if it is covered, delta / T and theta; all 0 if the field does not
-  /// have it. Lengths are divided by the grid's longer side.
+  /// have it. Lengths are divided by the grid's longer side. With a map, MapInput's way to the stop follows
+  /// the UAV's own inputs, and its way to the sensor those of each sensor.
   void Observe(std::span<const float> state, std::span<float> observation) const override;
   /// These four are those of the episode's field.
   void Judge(const Episode& episode, std::span<double> figures) const override;
   bool Succeeded(const Episode& episode) const override;
   EpisodeAccount Tell(const Episode& flight) const override;
-  int64_t bytes() const override { return 0; }
+  /// The map and what the network sees of it.
+  int64_t bytes() const override;
   bool has_places() const override { return true; }
   int DrawPlace(RandomStream& stream) const override;
   bool IsAt(std::span<const float> state, int place) const override;
@@ -82,10 +89,15 @@ class UavFields : public World {
 
  private:
   void CheckEveryStopIsReachable() const;
+  std::vector<int> DistancesToStops(const UavWorld& largest) const;
+  const std::vector<Cell>& CellsToDraw() const;
+  bool IsCovered(Cell cell, const Sensor& sensor, double radius_m, double distance_m) const;
+  Cell DrawStart(bool any, Cell given, RandomStream& stream) const;
 
   Scenario common_;
   FieldRanges ranges_;
   UavOptions options_;
+  std::optional<MapInput> map_input_;  // if there is a map
 };
 
 }  // namespace fresco
