@@ -31,6 +31,12 @@ int64_t FloorOfQuotient(int64_t a, int64_t b) {
   return a / b - (a % b < 0 ? 1 : 0);
 }
 
+/// The column or row of a place; on an edge, the lower one.
+int IndexInParts(int64_t position, int cells) {
+  return static_cast<int>(
+      std::clamp<int64_t>(FloorOfQuotient(position + kParts / 2 - 1, kParts), 0, cells - 1));
+}
+
 /// Calls `visit(row)` for each row whose cells' inside holds points with a y strictly between low / scale and
 /// high / scale, or, if both are equal, with this y. Returns whether some call was true. `scale` is positive.
 template <class Visit>
@@ -89,12 +95,6 @@ bool AnyCellOnLine(const Line& line, const Visit& visit) {
 const std::vector<std::string>& CheckedRows(const std::vector<std::string>& rows) {
   ObstacleMap::CheckRows(rows);
   return rows;
-}
-
-/// Half-way between two cells, the lower one.
-int NearestIndex(double position_m, double cell_m, int cells) {
-  const double index = std::ceil(position_m / cell_m - 0.5);
-  return static_cast<int>(std::clamp(index, 0.0, cells - 1.0));
 }
 
 }  // namespace
@@ -211,15 +211,18 @@ int64_t ObstacleMap::bytes() const {
 }
 
 bool ObstacleMap::HasLineOfSight(Cell cell, const Sensor& sensor, double cell_m) const {
-  const Cell stands_in = CellOf(sensor, cell_m, columns_, rows_);
   const Line line = {cell.column * kParts, cell.row * kParts, InParts(sensor.x_m, cell_m),
                      InParts(sensor.y_m, cell_m)};
+  const Cell stands_in = {IndexInParts(line.end_x, columns_), IndexInParts(line.end_y, rows_)};
   return !AnyCellOnLine(
       line, [&](Cell through) { return OnMap(through) && BlocksRadio(through) && !(through == stands_in); });
 }
 
 Cell CellOf(const Sensor& sensor, double cell_m, int columns, int rows) {
-  return {NearestIndex(sensor.x_m, cell_m, columns), NearestIndex(sensor.y_m, cell_m, rows)};
+  const auto nearest = [&](double position_m, int cells) {
+    return static_cast<int>(std::clamp(std::ceil(position_m / cell_m - 0.5), 0.0, cells - 1.0));
+  };
+  return {nearest(sensor.x_m, columns), nearest(sensor.y_m, rows)};
 }
 
 }  // namespace fresco

@@ -82,9 +82,9 @@ class ObstacleMap {
   /// Whether radio passes between the UAV over `cell` and a sensor: the straight line on the ground from the
   /// cell's centre to the sensor does not go through the inside of a cell that blocks radio, other than the
   /// one in which the sensor stands. (So it may touch an edge or a corner, and over a cell that blocks radio
-  /// the UAV hears only sensors that stand there.) Places are rounded to a 2^16-th of a cell and the rest is
-  /// computed in whole numbers, so the last bits of a position decide nothing. `cell` and sensor are on the
-  /// map.
+  /// the UAV hears only sensors that stand there.) The sensor's place is rounded to a 2^16-th of a cell and
+  /// the rest is computed in whole numbers, so the last bits of a place decide nothing; on an edge between
+  /// two cells, a sensor stands in the western or southern one. `cell` and sensor are on the map.
   bool HasLineOfSight(Cell cell, const Sensor& sensor, double cell_m) const;
 
  private:

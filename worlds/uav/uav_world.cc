@@ -398,6 +398,9 @@ Move MoveTowards(const ObstacleMap* map, Cell from, Cell to) {
     return open;
   }
   const int distance = map->Distance(to, from);
+  if (distance == ObstacleMap::kCutOff) {
+    return Move::kHover;
+  }
   for (const Move move : {open, Move::kNorth, Move::kSouth, Move::kEast, Move::kWest}) {
     const Cell step = kMoveSteps[static_cast<size_t>(move)];
     const Cell next = {from.column + step.column, from.row + step.row};
