@@ -19,7 +19,7 @@ public class FieldsTest {
     assertNull(fields.of(1));
     fields.add(Messages.scenario(1, 0, 24, 26));
     assertEquals(26, fields.of(1).sensors().size());
-    assertEquals(50, fields.of(1).sensors().get(25).weight(), 0);
+    assertEquals(26, fields.of(1).sensors().get(25).weight(), 0);
     assertNull(fields.of(2));
   }
 
