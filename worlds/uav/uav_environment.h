@@ -59,7 +59,6 @@ class UavEnvironment : public Environment {
  private:
   std::array<uint8_t, kMoves> SafeMoves() const;
   void Collect(int schedule);
-  double SlotEnergy(Cell next) const;
   void UpdateMargins();
   Outcome PresentOutcome() const;
   double RewardOfState() const;

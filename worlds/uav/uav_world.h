@@ -196,16 +196,19 @@ const UavWorld* AsUavWorld(const World& world);
 /// The same. Throws UsageError if it is another kind of world: "a flight: …". `what` says who needs it.
 const UavWorld& RequireUavWorld(const World& world, const std::string& what);
 
-/// Returns Delta_t: the joules left after `slots_left` more slots from `cell` with `remaining_j` joules on
-/// board. If flying takes no more energy than hovering, P(V) <= P(0), all these slots are counted as flown,
-/// as in the paper. (That is an upper bound: an odd number of spare slots takes a hover, see
-/// CompletionEnergy.) Otherwise the distance to the stop is flown and the spare slots are hovered. If
-/// time_margin < 0, there are no spare slots.
-inline double EnergyMargin(const UavWorld& world, Cell cell, int slots_left, double remaining_j) {
-  const int flown = world.flying_energy_j() <= world.hovering_energy_j()
-                        ? slots_left
-                        : std::min(world.DistanceToStop(cell), slots_left);
+/// Returns Delta_t: the joules left after `slots_left` more slots with `remaining_j` joules on board, from a
+/// cell that is `distance` moves away from the stop. If flying takes no more energy than hovering, P(V) <=
+/// P(0), all these slots are counted as flown, as in the paper. (That is an upper bound: an odd number of
+/// spare slots takes a hover, see CompletionEnergy.) Otherwise the distance to the stop is flown and the
+/// spare slots are hovered. If time_margin < 0, there are no spare slots.
+inline double EnergyMargin(const UavWorld& world, int distance, int slots_left, double remaining_j) {
+  const int flown =
+      world.flying_energy_j() <= world.hovering_energy_j() ? slots_left : std::min(distance, slots_left);
   return remaining_j - flown * world.flying_energy_j() - (slots_left - flown) * world.hovering_energy_j();
+}
+/// The same for a cell.
+inline double EnergyMargin(const UavWorld& world, Cell cell, int slots_left, double remaining_j) {
+  return EnergyMargin(world, world.DistanceToStop(cell), slots_left, remaining_j);
 }
 
 /// Returns the joules of the cheapest flight to a stop that is so many cells away, in exactly `slots_left`
