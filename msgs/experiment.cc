@@ -4,6 +4,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 
 #include "core/bytes.h"
@@ -124,6 +125,13 @@ void CheckSettingKeepsWorld(const proto::ExperimentConfig& config, const std::st
                   path, origin, descriptor.FindFieldByNumber(config.world_case())->name(), field->name()));
 }
 
+void Apply(const Settings& settings, const std::string& origin, proto::ExperimentConfig& config) {
+  for (const auto& [path, value] : settings) {
+    CheckSettingKeepsWorld(config, path, origin);
+    SetField(config, path, value);
+  }
+}
+
 std::string Print(const google::protobuf::Message& message) {
   std::string text;
   google::protobuf::TextFormat::PrintToString(message, &text);
@@ -147,9 +155,10 @@ Settings ParseSettings(const std::vector<std::string>& arguments) {
 Experiment Experiment::Parse(const std::string& text, const std::string& origin, const Settings& settings) {
   proto::ExperimentConfig config;
   ParseText(text, origin, config);
-  for (const auto& [path, value] : settings) {
-    CheckSettingKeepsWorld(config, path, origin);
-    SetField(config, path, value);
+  const bool reads_files = !NamesFiles(config);  // only what a setting names; otherwise Make refuses it
+  Apply(settings, origin, config);
+  if (reads_files) {
+    WithOrigin(origin, [&] { ReadFiles(config, ""); });
   }
   return Make(std::move(config), origin);
 }
@@ -185,7 +194,11 @@ Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& or
 }
 
 Experiment Experiment::Load(const std::string& path, const Settings& settings) {
-  return Parse(ReadFile(path), path, settings);
+  proto::ExperimentConfig config;
+  ParseText(ReadFile(path), path, config);
+  Apply(settings, path, config);
+  WithOrigin(path, [&] { ReadFiles(config, std::filesystem::path(path).parent_path()); });
+  return Make(std::move(config), path);
 }
 
 std::string Experiment::Text() const {

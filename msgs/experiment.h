@@ -33,9 +33,11 @@ class Experiment {
  public:
   /// Parses Protobuf's text format, applies the settings, fills in defaults and checks everything. `origin`
   /// names the source in errors: a file, or "the run's configuration". Throws UsageError that names origin,
-  /// field, value and what is allowed.
+  /// field, value and what is allowed. The text may not name files (scenario.map), since it may come from the
+  /// bus; settings may.
   static Experiment Parse(const std::string& text, const std::string& origin, const Settings& settings = {});
-  /// Does the same with the text of a file. Also throws UsageError if the file can't be read.
+  /// Does the same with the text of a file, and reads the files that it names. Also throws UsageError if a
+  /// file can't be read.
   static Experiment Load(const std::string& path, const Settings& settings = {});
   /// Does the same with a configuration message that the program built; there are no settings to apply.
   static Experiment Make(proto::ExperimentConfig config, const std::string& origin);

@@ -28,13 +28,41 @@ scenario_t FieldOf(const Scenario& scenario) {
   return message;
 }
 
-void SetSensors(std::span<const Sensor> sensors, scenario_t& message) {
+/// The kinds of a map's cells, by UavWorld::CellIndex; empty if there is no map.
+std::vector<uint8_t> CellKinds(const UavWorld& world) {
+  std::vector<uint8_t> kinds;
+  for (int row = 0; world.map() != nullptr && row < world.map()->rows(); ++row) {
+    for (int column = 0; column < world.map()->columns(); ++column) {
+      kinds.push_back(static_cast<uint8_t>(world.map()->KindOf({column, row})));
+    }
+  }
+  return kinds;
+}
+
+/// The part `number` of values that are cut into parts of `size`; empty behind the last part.
+template <class Value>
+std::span<const Value> PartOf(std::span<const Value> values, size_t number, size_t size) {
+  const size_t first = std::min(number * size, values.size());
+  return values.subspan(first, std::min(size, values.size() - first));
+}
+
+void SetSensors(std::span<const Sensor> all, size_t number, scenario_t& message) {
+  const std::span<const Sensor> sensors = PartOf(all, number, kMaximumSensorsPerScenario);
   message.sensor_count = static_cast<int32_t>(sensors.size());
+  message.first_sensor = static_cast<int32_t>(sensors.data() - all.data());
   for (const Sensor& sensor : sensors) {
     message.x_m.push_back(sensor.x_m);
     message.y_m.push_back(sensor.y_m);
     message.weight.push_back(sensor.weight);
   }
+}
+
+void SetCells(std::span<const uint8_t> all, size_t number, scenario_t& message) {
+  const std::span<const uint8_t> kinds = PartOf(all, number, kMaximumCellsPerScenario);
+  message.cell_count = static_cast<int32_t>(kinds.size());
+  message.first_cell = static_cast<int32_t>(kinds.data() - all.data());
+  message.total_cells = static_cast<int32_t>(all.size());
+  message.cell_kind.assign(kinds.begin(), kinds.end());
 }
 
 void SetState(const UavWorld& world, const UavState& state, flight_t& message) {
@@ -55,13 +83,14 @@ std::vector<scenario_t> ScenarioMessages(const UavWorld& world) {
   std::vector<scenario_t> messages;
   const Scenario& scenario = world.scenario();
   const std::span<const Sensor> sensors = scenario.sensors;
-  for (size_t first = 0; first < sensors.size(); first += kMaximumSensorsPerScenario) {
+  const std::vector<uint8_t> kinds = CellKinds(world);
+  do {
     scenario_t message = FieldOf(scenario);
-    message.first_sensor = static_cast<int32_t>(first);
-    SetSensors(sensors.subspan(first, std::min<size_t>(kMaximumSensorsPerScenario, sensors.size() - first)),
-               message);
+    SetSensors(sensors, messages.size(), message);
+    SetCells(kinds, messages.size(), message);
     messages.push_back(std::move(message));
-  }
+  } while (messages.size() * kMaximumSensorsPerScenario < sensors.size() ||
+           messages.size() * kMaximumCellsPerScenario < kinds.size());
   return messages;
 }
 

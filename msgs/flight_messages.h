@@ -10,8 +10,8 @@
 
 namespace fresco {
 
-/// Returns as many messages as the sensors need, at most kMaximumSensorsPerScenario in each. The caller fills
-/// in `utime`, `run_id` and `config_hash`.
+/// Returns as many messages as the sensors and the cells of the map need, at most kMaximumSensorsPerScenario
+/// and kMaximumCellsPerScenario in each. The caller fills in `utime`, `run_id` and `config_hash`.
 std::vector<scenario_t> ScenarioMessages(const UavWorld& world);
 
 /// Returns one message for each slot of the flight and one for its final state. The caller fills in `utime`,

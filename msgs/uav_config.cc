@@ -3,8 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "core/error.h"
+#include "msgs/map_file.h"
+#include "worlds/uav/obstacle_map.h"
 #include "worlds/uav/physics.h"
 #include "worlds/uav/uav_fields.h"
 
@@ -14,6 +20,30 @@ namespace {
 void SetCell(proto::Cell& cell, int column, int row) {
   cell.set_column(column);
   cell.set_row(row);
+}
+
+std::vector<std::string> MapRows(const proto::Scenario& scenario) {
+  return {scenario.map_row().begin(), scenario.map_row().end()};
+}
+
+/// Sets what follows from the map: columns and rows, start and stop, unless they are given.
+void CompleteFromMap(proto::Scenario& scenario) {
+  const std::vector<std::string> rows = MapRows(scenario);
+  ObstacleMap::CheckRows(rows);
+  proto::Grid& grid = *scenario.mutable_grid();
+  if (!grid.has_columns()) {
+    grid.set_columns(static_cast<int>(rows[0].size()));
+  }
+  if (!grid.has_rows()) {
+    grid.set_rows(static_cast<int>(rows.size()));
+  }
+  const std::vector<Cell> zones = ObstacleMap::ZonesIn(rows);
+  if (!zones.empty() && !scenario.has_start()) {
+    SetCell(*scenario.mutable_start(), zones.front().column, zones.front().row);
+  }
+  if (!zones.empty() && !scenario.has_stop()) {
+    SetCell(*scenario.mutable_stop(), zones.back().column, zones.back().row);
+  }
 }
 
 Rotor ToRotor(const proto::Rotor& rotor) {
@@ -36,12 +66,15 @@ Scenario ToScenario(const proto::Scenario& from) {
   scenario.slot_s = from.slot_s();
   scenario.start = {from.start().column(), from.start().row()};
   scenario.stop = {from.stop().column(), from.stop().row()};
+  if (!from.map_row().empty()) {
+    scenario.map = std::make_shared<ObstacleMap>(MapRows(from));
+    CheckPlaces(scenario);  // before sensors are drawn around the start
+  }
   for (const proto::Sensor& sensor : from.sensor()) {
     scenario.sensors.push_back({sensor.x_m(), sensor.y_m(), sensor.weight()});
   }
   if (from.has_random_sensors() && !from.random_sensors().per_episode()) {
-    scenario.sensors = RandomSensors(scenario.columns, scenario.rows, scenario.cell_m,
-                                     from.random_sensors().count(), from.random_sensors().seed());
+    scenario.sensors = RandomSensors(scenario, from.random_sensors().count(), from.random_sensors().seed());
   }
   scenario.radio = {from.radio().bandwidth_hz(), from.radio().update_bits(), from.radio().noise_dbm(),
                     from.radio().gain_at_1m_db(), from.radio().altitude_m()};
@@ -108,8 +141,44 @@ void CheckOneField(const proto::Scenario& scenario) {
 
 }  // namespace
 
+bool NamesMap(const proto::ExperimentConfig& config) {
+  return config.scenario().has_map();
+}
+
+void ReadMap(proto::ExperimentConfig& config, const std::filesystem::path& folder) {
+  if (!NamesMap(config)) {
+    return;
+  }
+  proto::Scenario& scenario = *config.mutable_scenario();
+  if (!scenario.map_row().empty()) {
+    throw UsageError(fmt::format(
+        "scenario.map (\"{}\") and scenario.map_row ({} given) contradict each other; allowed: one of "
+        "the two",
+        scenario.map(), scenario.map_row_size()));
+  }
+  std::error_code error;
+  const std::filesystem::path beside = folder / scenario.map();
+  std::vector<std::string> rows;
+  try {
+    rows =
+        ReadMapFile(std::filesystem::exists(beside, error) ? beside : std::filesystem::path(scenario.map()));
+  } catch (const Error& problem) {
+    throw UsageError(fmt::format("scenario.map: {}", problem.what()));
+  }
+  scenario.clear_map();
+  for (std::string& row : rows) {
+    scenario.add_map_row(std::move(row));
+  }
+}
+
 void CompleteScenario(proto::ExperimentConfig& config) {
   proto::Scenario& scenario = *config.mutable_scenario();
+  if (scenario.has_map()) {
+    throw UsageError(fmt::format(
+        "scenario.map: \"{}\"; allowed only in a configuration that is read from a file, or in a setting; "
+        "elsewhere scenario.map_row, the map as text",
+        scenario.map()));
+  }
   if (scenario.has_random_sensors() && !scenario.sensor().empty()) {
     throw UsageError(
         fmt::format("scenario.sensor ({} given) and scenario.random_sensors contradict each other; "
@@ -117,6 +186,9 @@ void CompleteScenario(proto::ExperimentConfig& config) {
                     scenario.sensor_size()));
   }
   scenario.mutable_grid();
+  if (!scenario.map_row().empty()) {
+    CompleteFromMap(scenario);
+  }
   scenario.mutable_radio();
   scenario.mutable_rotor();
   scenario.mutable_reward();

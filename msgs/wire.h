@@ -34,6 +34,7 @@ inline constexpr int kMaximumParts = run_t::MAXIMUM_PART_COUNT;
 inline constexpr int kMaximumHeldVersions = actor_status_t::MAXIMUM_HELD_COUNT;
 inline constexpr int kMaximumMissingRanges = actor_status_t::MAXIMUM_MISSING_COUNT;
 inline constexpr int kMaximumSensorsPerScenario = scenario_t::MAXIMUM_SENSOR_COUNT;
+inline constexpr int kMaximumCellsPerScenario = scenario_t::MAXIMUM_CELL_COUNT;
 inline constexpr size_t kMaximumHostBytes = actor_status_t::MAXIMUM_HOST_BYTES;
 inline constexpr size_t kMaximumWaitingForBytes = learner_status_t::MAXIMUM_WAITING_FOR_BYTES;
 inline constexpr size_t kMaximumWarningBytes = learner_status_t::MAXIMUM_WARNING_BYTES;

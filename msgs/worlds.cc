@@ -35,6 +35,8 @@ struct WorldKind {
   void (*complete)(Config&) = nullptr;
   std::string (*code)(const Config&) = nullptr;  // see CodeOf
   const ViewerMessages* viewer_messages = nullptr;
+  bool (*names_files)(const Config&) = nullptr;  // see NamesFiles, ReadFiles
+  void (*read_files)(Config&, const std::filesystem::path& folder) = nullptr;
 };
 
 template <class BuiltIn>
@@ -54,7 +56,7 @@ constexpr ViewerMessages kUavMessages = {
     }};
 
 const WorldKind kWorldKinds[] = {
-    {Config::kScenario, MakeUavWorld, CompleteScenario, nullptr, &kUavMessages},
+    {Config::kScenario, MakeUavWorld, CompleteScenario, nullptr, &kUavMessages, NamesMap, ReadMap},
     {Config::kCartpole, [](const Config& config) { return Make<CartPole>(config.cartpole()); }},
     {Config::kAcrobot, [](const Config& config) { return Make<Acrobot>(config.acrobot()); }},
     {Config::kPlugin, MakePluginWorld, CompletePlugin, PluginCode},
@@ -107,6 +109,17 @@ void CheckCapabilities(const Config& config, const World& world) {
 }
 
 }  // namespace
+
+bool NamesFiles(const Config& config) {
+  return config.world_case() != Config::WORLD_NOT_SET && KindOf(config).names_files != nullptr &&
+         KindOf(config).names_files(config);
+}
+
+void ReadFiles(Config& config, const std::filesystem::path& folder) {
+  if (NamesFiles(config)) {
+    KindOf(config).read_files(config, folder);
+  }
+}
 
 void CompleteWorld(Config& config) {
   if (config.world_case() == Config::WORLD_NOT_SET) {

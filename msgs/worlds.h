@@ -2,6 +2,7 @@
 // CONTRIBUTING.md. Any thread may call these functions.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,13 @@
 namespace fresco {
 
 class Experiment;
+
+/// Whether the world of a configuration is described by files that it names (scenario.map). The
+/// configuration may be incomplete.
+bool NamesFiles(const proto::ExperimentConfig& config);
+/// Replaces the names of such files by what is in them. They count from `folder`, or, if they are not there,
+/// from the working directory. Throws UsageError naming field, file and what is wrong.
+void ReadFiles(proto::ExperimentConfig& config, const std::filesystem::path& folder);
 
 /// Sets what the configuration leaves out of its world and Protobuf's field defaults can't express; without
 /// any world, the paper's.

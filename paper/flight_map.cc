@@ -62,6 +62,44 @@ std::string ColourNumber(const char* colour) {
   return fmt::format("0x{}", colour + 1);
 }
 
+/// What the cells of a map look like.
+struct CellLook {
+  CellKind kind;
+  const char* name;
+  const char* colour;
+};
+
+constexpr std::array<CellLook, 4> kCellLooks = {
+    {{CellKind::kNoFlying, "no flying", "#F2C4BD"},
+     {CellKind::kBlocksRadio, "blocks radio", "#C4E3C0"},
+     {CellKind::kBlocksBoth, "both", "#DFCB73"},
+     {CellKind::kStartAndLanding, "start and landing", "#C5D9F3"}}};
+
+bool HasKind(const UavWorld& world, CellKind kind) {
+  bool found = false;
+  for (int cell = 0; world.map() != nullptr && cell < world.map()->columns() * world.map()->rows(); ++cell) {
+    found =
+        found || world.map()->KindOf({cell % world.map()->columns(), cell / world.map()->columns()}) == kind;
+  }
+  return found;
+}
+
+/// The data of the map's cells that are not just free, a line each: column, row, colour. Empty if there are
+/// none.
+std::string CellData(const UavWorld& world) {
+  std::string lines;
+  for (int row = 0; world.map() != nullptr && row < world.map()->rows(); ++row) {
+    for (int column = 0; column < world.map()->columns(); ++column) {
+      for (const CellLook& look : kCellLooks) {
+        if (world.map()->KindOf({column, row}) == look.kind) {
+          lines += fmt::format("{} {} {}\n", column, row, ColourNumber(look.colour));
+        }
+      }
+    }
+  }
+  return lines.empty() ? "" : "$cells << END\n" + lines + "END\n";
+}
+
 /// The data of the path, a line for each slot: column, row, slot.
 std::string PathData(const UavWorld& world, const Episode& flight) {
   std::string script = "$path << END\n";
@@ -117,15 +155,18 @@ constexpr const char* kStartPoint = "pointtype 9 pointsize 1.2";
 constexpr const char* kStopPoint = "pointtype 5 pointsize 0.9";
 
 /// Draws from the lowest layer to the highest. 0x60000000 makes a colour a third transparent.
-std::string PlotCommand(bool collections) {
+std::string PlotCommand(bool cells, bool collections) {
   const std::string lines =
       "  $collections using 1:2:3:4:($5+0x60000000) with vectors nohead linewidth 0.8 linecolor rgb "
       "variable, \\\n";
   const std::string dots =
       "  $collections using 1:2 with points pointtype 7 pointsize 0.55 linecolor rgb '#FFFFFF', \\\n"
       "  $collections using 1:2:5 with points pointtype 7 pointsize 0.4 linecolor rgb variable, \\\n";
+  const std::string ground =
+      "$cells using 1:2:(0.5):(0.5):3 with boxxyerror linecolor rgb variable fillstyle solid 1 noborder, "
+      "\\\n  ";
   return fmt::format(
-      "plot $sensors using 1:2:3:5 with circles linecolor rgb variable fillstyle transparent solid 0.08 "
+      "plot {}$sensors using 1:2:3:5 with circles linecolor rgb variable fillstyle transparent solid 0.08 "
       "noborder, \\\n"
       "  $sensors using 1:2:3:5 with circles linecolor rgb variable linewidth 1 fillstyle empty border, "
       "\\\n{}"
@@ -134,7 +175,8 @@ std::string PlotCommand(bool collections) {
       "  $start with points {} {}, \\\n  $stop with points {} {}, \\\n"
       "  $sensors using 1:2:5 with points pointtype 7 pointsize 1.6 linecolor rgb variable, \\\n"
       "  $sensors using 1:2:4:6 with labels textcolor rgb variable\n",
-      collections ? lines : "", collections ? dots : "", kBlackLine, kStartPoint, kBlackLine, kStopPoint);
+      cells ? ground : "", collections ? lines : "", collections ? dots : "", kBlackLine, kStartPoint,
+      kBlackLine, kStopPoint);
 }
 
 /// The number of cells between two tics, so that there are at most eleven tics.
@@ -173,29 +215,37 @@ std::string AxesScript(const UavWorld& world) {
          fmt::format("set cbrange [1:{}]\n", std::max(world.scenario().slots, 2));
 }
 
-Legend MapLegend() {
-  return Legend(
-      {{"start", kBlackLine, "", kStartPoint},
-       {"stop", kBlackLine, "", kStopPoint},
-       {"path", "linecolor rgb '#2A788E'", "linewidth 3", ""},
-       {"collection, with a line to its sensor", kBlackLine, "linewidth 0.8", "pointtype 7 pointsize 0.4"}},
-      kMapWidthPx);
+Legend MapLegend(const UavWorld& world) {
+  std::vector<LegendEntry> entries = {
+      {"start", kBlackLine, "", kStartPoint},
+      {"stop", kBlackLine, "", kStopPoint},
+      {"path", "linecolor rgb '#2A788E'", "linewidth 3", ""},
+      {"collection, with a line to its sensor", kBlackLine, "linewidth 0.8", "pointtype 7 pointsize 0.4"}};
+  for (const CellLook& look : kCellLooks) {
+    if (HasKind(world, look.kind)) {
+      entries.push_back(
+          {look.name, fmt::format("linecolor rgb '{}'", look.colour), "", "pointtype 5 pointsize 1.4"});
+    }
+  }
+  return Legend(std::move(entries), kMapWidthPx);
 }
 
 }  // namespace
 
 Picture DrawFlightMap(const std::string& title, const UavWorld& world, const Episode& flight) {
-  const Legend legend = MapLegend();
+  const Legend legend = MapLegend(world);
   const Frame frame{
       .title = title, .x_label = "column", .y_label = "row", .right_label = "slot", .right_px = kColourBarPx};
   const int map_width_px = kMapWidthPx - frame.left_px - frame.right_px;
   const int map_height_px =
       std::clamp(map_width_px * world.scenario().rows / world.scenario().columns, 200, 1000);
   Picture picture{kMapWidthPx, frame.top_px + map_height_px + frame.bottom_px + legend.height_px(), ""};
+  const std::string cells = CellData(world);
   const std::string collections = CollectionData(world, flight);
-  picture.script = FrameScript(frame, picture, legend) + AxesScript(world) + PathData(world, flight) +
-                   collections + SensorData(world) + EndData(world) +
-                   PlotCommand(collections.find(' ', collections.find('\n')) != std::string::npos);
+  picture.script =
+      FrameScript(frame, picture, legend) + AxesScript(world) + cells + PathData(world, flight) +
+      collections + SensorData(world) + EndData(world) +
+      PlotCommand(!cells.empty(), collections.find(' ', collections.find('\n')) != std::string::npos);
   return picture;
 }
 

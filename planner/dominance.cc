@@ -11,8 +11,8 @@ constexpr double kNever = 1e300;
 
 }  // namespace
 
-// A breadth-first search from all cells that cover the sensor. Flights may cross every cell of the grid, so
-// the distances are exact.
+// A breadth-first search from all cells that cover the sensor. Only cells that can be
+// flown over cover it, and flights may cross all of these, so the distances are exact.
 CoverageDistances::CoverageDistances(const PlannerProblem& problem, WorkMeter& meter)
     : cells_(static_cast<size_t>(problem.cells())) {
   constexpr int64_t kUnitsPerCell = 64;

@@ -101,7 +101,7 @@ void PlannerProblem::TabulateMoves() {
 int PlannerProblem::DearAllowance(int slot, int cell) const {
   const Scenario& scenario = world_->scenario();
   const Cell at = CellAt(cell);
-  const int from_start = std::abs(at.column - scenario.start.column) + std::abs(at.row - scenario.start.row);
+  const int from_start = world_->Distance(scenario.start, at);
   const int slots_left = slots() - slot;
   if (from_start > slot - 1 || world_->DistanceToStop(at) > slots_left) {
     return -1;
@@ -110,7 +110,8 @@ int PlannerProblem::DearAllowance(int slot, int cell) const {
     return dear_slots_;
   }
   // The energy of the way to the stop says how many dear slots it needs.
-  const double home_j = CompletionEnergy(*world_, world_->DistanceToStop(at), slots_left) - slots_left * cheap_energy_j_;
+  const double home_j =
+      CompletionEnergy(*world_, world_->DistanceToStop(at), slots_left) - slots_left * cheap_energy_j_;
   return dear_slots_ - static_cast<int>(std::lround(home_j / extra_energy_j_));
 }
 

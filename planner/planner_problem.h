@@ -52,7 +52,7 @@ class PlannerProblem {
   Cell CellAt(int cell) const {
     return {cell % world_->scenario().columns, cell / world_->scenario().columns};
   }
-  /// The cell after a move; -1 if the move leaves the grid.
+  /// The cell after a move; -1 if the move leads off the grid or over a cell that can't be flown over.
   int After(int cell, Move move) const {
     return after_[static_cast<size_t>(cell) * kMoves + static_cast<size_t>(move)];
   }

@@ -30,6 +30,14 @@ function expectWorld(world) {
   });
 }
 
+/** The rows of the map, the northern one first; undefined if the grid is open. */
+function expectMap(world) {
+  const {map, columns, rows} = world;
+  const sound = map === undefined || (Array.isArray(map) && map.length === rows &&
+                map.every((row) => typeof row === "string" && row.length === columns && /^[.NRBS]*$/.test(row)));
+  expectThat(sound, "world.map", `${rows} texts of ${columns} cells`, map);
+}
+
 function expectSlot(slot, world, where) {
   const sensors = world.sensors.length;
   expectCell(slot, world, where);
@@ -50,6 +58,7 @@ function readFlightData(text) {
     throw new Error(`it is no JSON (${error.message})`);
   }
   expectWorld(data?.world);
+  expectMap(data.world);
   expectList(data.flights, "flights");
   data.flights.forEach((flight, index) => {
     expectList(flight?.flight, `flights[${index}].flight`);

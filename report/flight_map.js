@@ -38,6 +38,14 @@ const DENSE = 40;         // columns or rows: the path over more of them is draw
 const NUMBERED = 60;      // sensors: more of them are dots without a number
 const FILLED = 25;        // sensors: the coverage of more of them is drawn as outlines only
 
+/** Cells of a map that are not just free: their class in the drawing, and what they are. */
+const CELL_KINDS = {
+  N: {className: "no-flying", name: "no flying"},
+  R: {className: "blocks-radio", name: "blocks radio"},
+  B: {className: "blocks-both", name: "no flying, blocks radio"},
+  S: {className: "zone", name: "start and landing"},
+};
+
 /**
  * The field seen from above, row 0 at the bottom. Positions are in units of the drawing; marks are
  * drawn in pixels of the screen, whatever the size of the map.
@@ -53,6 +61,7 @@ class FlightMap {
     const margin = 0.065 * Math.max(this.width, this.height);
     svg.setAttribute("viewBox", `${-margin} ${-margin / 4} ${this.width + 1.25 * margin} ` +
                                 `${this.height + 1.25 * margin}`);
+    this.drawObstacles();
     this.drawGrid();
     this.drawCoverage();
     this.casings = svgElement(svg, "g", {class: "casings"});
@@ -88,6 +97,23 @@ class FlightMap {
     const scale = this.svg.getScreenCTM()?.a;
     if (scale > 0) {
       this.svg.style.setProperty("--pixel", 1 / scale);
+    }
+  }
+
+  drawObstacles() {
+    const group = svgElement(this.svg, "g", {class: "cells"});
+    for (const [kind, {className, name}] of Object.entries(CELL_KINDS)) {
+      let cells = "";
+      (this.world.map ?? []).forEach((row, fromNorth) => {
+        [...row].forEach((cell, column) => {
+          if (cell === kind) {
+            cells += `M${column * CELL} ${fromNorth * CELL}h${CELL}v${CELL}h${-CELL}z`;
+          }
+        });
+      });
+      if (cells) {
+        svgElement(svgElement(group, "path", {class: className, d: cells}), "title", {}, name);
+      }
     }
   }
 

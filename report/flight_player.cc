@@ -33,14 +33,18 @@ OrderedJson WorldJson(const UavWorld& world) {
   for (const Sensor& sensor : scenario.sensors) {
     sensors.push_back({{"x_m", sensor.x_m}, {"y_m", sensor.y_m}, {"weight", sensor.weight}});
   }
-  return {{"columns", scenario.columns},
-          {"rows", scenario.rows},
-          {"cell_m", scenario.cell_m},
-          {"slots", scenario.slots},
-          {"start", CellJson(scenario.start)},
-          {"stop", CellJson(scenario.stop)},
-          {"coverage_radius_m", scenario.coverage_radius_m},
-          {"sensors", std::move(sensors)}};
+  OrderedJson json = {{"columns", scenario.columns},
+                      {"rows", scenario.rows},
+                      {"cell_m", scenario.cell_m},
+                      {"slots", scenario.slots},
+                      {"start", CellJson(scenario.start)},
+                      {"stop", CellJson(scenario.stop)},
+                      {"coverage_radius_m", scenario.coverage_radius_m},
+                      {"sensors", std::move(sensors)}};
+  if (world.map() != nullptr) {
+    json["map"] = world.map()->Text();  // the northern row first
+  }
+  return json;
 }
 
 /// Returns what `fresco evaluate --format json` prints, and adds for each slot whether the scheduled sensor

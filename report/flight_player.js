@@ -35,6 +35,16 @@ class FlightPlayer {
     byId("last-slot").textContent = slots;
     byId("coverage-key").textContent = `covered within ${readable(radius)} m`;
     byId("grid-key").textContent = `${columns} × ${rows} cells of ${cell} m`;
+    const onMap = (this.world.map ?? []).join("");
+    for (const [kind, {className, name}] of Object.entries(CELL_KINDS)) {
+      if (onMap.includes(kind)) {
+        const key = document.createElement("span");
+        const square = svgElement(key, "svg", {class: "key cells", viewBox: "-8 -8 16 16", "aria-hidden": "true"});
+        svgElement(square, "path", {class: className, d: "M-7 -7H7V7H-7Z"});
+        key.append(name);
+        byId("grid-key").after(key);
+      }
+    }
   }
 
   connect() {

@@ -33,12 +33,13 @@ RESERVED = {
     "sodium": {"bus"},
     "Eigen/": {"nn"},
     "google/protobuf/": {"msgs"},
+    "png.h": {"msgs"},
     "nlohmann/": {"plugins", "storage", "logs", "processes", "report", "paper", "soak", "tools"},
 }
 # What may know the UAV's world: its own rooms, and its files in rooms that serve every world. The others ask a world
 # for what it has (worlds/world.h) and msgs/worlds.h for messages.
 UAV_ROOMS = {"worlds/uav", "planner", "paper"}
-UAV_FILES = re.compile(r"(msgs/(uav_config|flight_messages|worlds)|report/flight_\w+)\.(h|cc)")
+UAV_FILES = re.compile(r"(msgs/(uav_config|flight_messages|map_file|worlds)|report/flight_\w+)\.(h|cc)")
 UAV_NAMES = re.compile(r"\b(AsUavWorld|RequireUavWorld|UavWorld)\b|\"uav\"")
 PURE = {"nn", "worlds", "planner", "training"}  # no input or output, no clock, no random numbers but the counter-based ones
 IMPURE = re.compile(r"#include <(iostream|fstream|cstdio|chrono|random|thread|filesystem|unistd\.h)>")

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/bytes.h"
 #include "nn/arithmetic.h"
@@ -13,6 +14,8 @@
 #include "worlds/acrobot/acrobot.h"
 #include "worlds/cartpole/cartpole.h"
 #include "worlds/episode.h"
+#include "worlds/uav/obstacle_map.h"
+#include "worlds/uav/uav_fields.h"
 #include "worlds/uav/uav_world.h"
 
 namespace fresco {
@@ -58,8 +61,8 @@ struct Experience {
 
 std::string NumbersOf(const World& world) {
   const Experience experience(world);
-  const auto network = std::make_shared<Mlp>(
-      MlpShape({world.description().observation_size, 40, 32, world.actions()}));
+  const auto network =
+      std::make_shared<Mlp>(MlpShape({world.description().observation_size, 40, 32, world.actions()}));
   Dqn dqn(network, network->InitialParameters(1), {true, 0.99f, kBatchSize, {}}, 2);
   MiniBatch batch(network->inputs(), network->outputs(), kBatchSize);
   for (uint32_t update = 0; update < kUpdates; ++update) {
@@ -74,12 +77,23 @@ std::string NumbersOf(const World& world) {
   return text;
 }
 
+/// Fields over a map, on which corners of houses are on lines between cells and sensors.
+UavFields Town() {
+  Scenario scenario = TableOneScenario();
+  scenario.columns = scenario.rows = 6;
+  scenario.start = scenario.stop = {0, 0};
+  scenario.map = std::make_shared<ObstacleMap>(
+      std::vector<std::string>{"....SS", ".BB.N.", ".BB.N.", "......", ".RRR..", "SS...."});
+  return UavFields(scenario, {{1, 4}, {0.5, 2}, {30, 100}, {25, 30}, true, true}, {{true, true}, {}});
+}
+
 std::string Numbers() {
   Scenario scenario = TableOneScenario();
   scenario.rotor = LiteratureRotor();
   UavOptions options;
   options.network_input.sensor_geometry = true;
-  return NumbersOf(CartPole(200)) + NumbersOf(Acrobot(200)) + NumbersOf(UavWorld(scenario, options));
+  return NumbersOf(CartPole(200)) + NumbersOf(Acrobot(200)) + NumbersOf(UavWorld(scenario, options)) +
+         NumbersOf(Town());
 }
 
 int Main() {

@@ -11,10 +11,10 @@ from fresco_process import CI_CONFIG, FrescoTest, read_log, url, wait_until
 FLIGHT = struct.Struct(">QqqqiiiihhhffbhfqbI")
 NAMES = ("fingerprint utime run_id config_hash sensor_count flight slot slots column row time_margin energy_margin_j "
          "remaining_energy_j move scheduled reward total_aoi outcome policy_size").split()
-SCENARIO = struct.Struct(">Qqqqiiiiidiiiiidddi")
-SCENARIO_NAMES = ("fingerprint utime run_id config_hash sensor_count first_sensor total_sensors columns rows cell_m "
-                  "start_column start_row stop_column stop_row slots slot_s coverage_radius_m initial_energy_j "
-                  "maximum_aoi").split()
+SCENARIO = struct.Struct(">Qqqqiiiiiiiidiiiiidddi")
+SCENARIO_NAMES = ("fingerprint utime run_id config_hash sensor_count cell_count first_sensor total_sensors first_cell "
+                  "total_cells columns rows cell_m start_column start_row stop_column stop_row slots slot_s "
+                  "coverage_radius_m initial_energy_j maximum_aoi").split()
 MOVES = ["north", "south", "east", "west", "hover"]
 
 

@@ -5,10 +5,11 @@ import json
 import math
 import os
 import signal
+import subprocess
 import sys
 import unittest
 
-from fresco_process import FrescoTest, url, wait_until
+from fresco_process import ROOT, FrescoTest, url, wait_until
 
 # A tiny training: episodes of 60 steps at most, evaluations of five episodes.
 CARTPOLE = """cartpole { maximum_steps: 60 }
@@ -26,6 +27,17 @@ agent { hidden_layers: [32] batch_size: 32 replay_capacity: 5000 target_update_p
   coverage_mask: true flown_return_bound: true linear { initial: 5e-3 final: 1e-4 } }
 schedule { episodes: 600 inserts_per_update: 4 minimum_replay_size: 200 window: 8 updates_per_version: 50
   versions_per_evaluation: 10 evaluation_episodes: 10 excursion_share: 0.3 ladder { base: 0.3 exponent: 3 } }
+"""
+# The same over a map, which is a picture beside the configuration.
+TOWN = FIELDS.replace("grid { columns: 6 rows: 6 }", 'map: "town.png"').replace(
+    "start { column: 0 row: 0 } stop { column: 3 row: 5 }", "").replace("hidden_layers: [32]", """set_network {
+    encoder_layers: [16] trunk_layers: [16] head_layers: [16] }""")
+TOWN_TEXT = """....SS
+.BB.N.
+.BB.N.
+......
+.RRR..
+SS....
 """
 LONGER = ("--set", "schedule.episodes=4000")
 COLUMNS = ["utime", "run_id", "order_index", "actor_id", "seed", "transition", "ending", "position", "velocity", "angle",
@@ -78,6 +90,25 @@ class Worlds(FrescoTest):
         figures = json.loads(self.run_fresco("evaluate", "--policy", self.folder / "one", "--episodes", 20, "--format",
                                              "json")[0])
         self.assertEqual(len({episode["total_aoi"] for episode in figures["episodes"]} - {None}) > 10, True)
+
+    def test_gives_the_same_weights_over_a_map(self):
+        config = self.folder / "town.textproto"
+        config.write_text(TOWN)
+        (self.folder / "town.txt").write_text(TOWN_TEXT)
+        subprocess.run([ROOT / "tools" / "map_picture", self.folder / "town.txt", self.folder / "town.png"], check=True)
+        one = self.train(17663, "one", "--actors", 1, config=config)
+        (self.folder / "town.png").unlink()  # the run has the map in its own configuration
+        four = self.train(17663, "four", "--actors", 4, "--record", config=self.folder / "one" / "config.textproto")
+        for key in ("weights_crc32c", "transitions", "updates", "average_aoi", "success", "config_hash"):
+            self.assertEqual(four[key], one[key], key)
+        self.assertEqual(one["success"], 1)  # the mask keeps every stop within reach
+        log = self.folder / "four" / "traffic.lcm"
+        again = json.loads(self.run_fresco("retrain", log, "--strict", "--out", self.folder / "again", "--format",
+                                           "json")[0])
+        self.assertEqual(again["weights_crc32c"], one["weights_crc32c"])
+        obstacles = {(float(column), float(row)) for column, row in ((1, 3), (2, 3), (1, 4), (2, 4), (4, 3), (4, 4))}
+        rows = list(csv.DictReader(self.run_fresco("log", "export", log)[0].splitlines()))
+        self.assertFalse({(float(row["column"]), float(row["row"])) for row in rows} & obstacles)
 
     def test_gives_the_same_weights_however_often_the_learner_is_killed(self):
         often = (*LONGER, "--set", "run.checkpoint_interval_s=0.02")

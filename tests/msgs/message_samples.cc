@@ -149,12 +149,14 @@ world_t WorldOf(RandomStream& stream, int world_length, int success_length, int 
   return message;
 }
 
-scenario_t ScenarioOf(RandomStream& stream, int sensors) {
+scenario_t ScenarioOf(RandomStream& stream, int sensors, int cells) {
   auto message = WithNumbers<scenario_t>(stream);
   message.sensor_count = sensors;
   for (auto* values : {&message.x_m, &message.y_m, &message.weight}) {
     Fill(stream, *values, sensors);
   }
+  message.cell_count = cells;
+  Fill(stream, message.cell_kind, cells);
   return message;
 }
 
@@ -190,7 +192,8 @@ void Randomise(RandomStream& stream, world_t& message) {
                     Below(stream, world_t::MAXIMUM_ENTRIES_BYTES + 1));
 }
 void Randomise(RandomStream& stream, scenario_t& message) {
-  message = ScenarioOf(stream, Below(stream, kMaximumSensorsPerScenario + 1));
+  message = ScenarioOf(stream, Below(stream, kMaximumSensorsPerScenario + 1),
+                       Below(stream, kMaximumCellsPerScenario + 1));
 }
 void Randomise(RandomStream& stream, flight_t& message) {
   message = FlightOf(stream, Below(stream, flight_t::MAXIMUM_SENSOR_COUNT + 1),
@@ -242,7 +245,7 @@ void MakeLargest(RandomStream& stream, world_t& message) {
                     world_t::MAXIMUM_ENTRIES_BYTES);
 }
 void MakeLargest(RandomStream& stream, scenario_t& message) {
-  message = ScenarioOf(stream, kMaximumSensorsPerScenario);
+  message = ScenarioOf(stream, kMaximumSensorsPerScenario, kMaximumCellsPerScenario);
 }
 void MakeLargest(RandomStream& stream, flight_t& message) {
   message = FlightOf(stream, flight_t::MAXIMUM_SENSOR_COUNT, kMaximumPolicyBytes);

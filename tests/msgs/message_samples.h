@@ -59,7 +59,7 @@ transitions_t TransitionsOf(RandomStream& stream, int transitions, int fields, i
 actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int host_length);
 learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length);
 world_t WorldOf(RandomStream& stream, int world_length, int success_length, int entries_length);
-scenario_t ScenarioOf(RandomStream& stream, int sensors);
+scenario_t ScenarioOf(RandomStream& stream, int sensors, int cells);
 flight_t FlightOf(RandomStream& stream, int sensors, int policy_length);
 
 /// A configuration as a learner announces it, in parts of at most so many bytes.

@@ -35,7 +35,11 @@ void SetEnergy(Scenario* scenario, int distance, RandomStream* stream) {
   const int moves = scenario->slots - 1;
   const double flying_j = Flying(*scenario);
   const double hovering_j = Hovering(*scenario);
-  const bool single_cell = scenario->columns * scenario->rows == 1;
+  bool single_cell = true;  // of those that flights lead to
+  for (const auto& [columns, rows] : {std::pair(0, 1), {0, -1}, {1, 0}, {-1, 0}}) {
+    const Cell next = {scenario->stop.column + columns, scenario->stop.row + rows};
+    single_cell = single_cell && !MayFlyLiterally(*scenario, next);
+  }
   const int least = flying_j > hovering_j ? distance : single_cell ? moves : (moves - distance) % 2;
   const bool binds = Between(stream, 0, 1) == 0;
   const int dear = binds ? std::min(moves, least + Between(stream, 0, 4)) : moves;
@@ -63,7 +67,8 @@ double ExhaustiveSearch::CostOfSlot(const Situation& situation) const {
 bool ExhaustiveSearch::Covers(Cell cell, int sensor) const {
   const Sensor& at = scenario_.sensors[static_cast<size_t>(sensor)];
   return std::hypot(cell.column * scenario_.cell_m - at.x_m, cell.row * scenario_.cell_m - at.y_m) <=
-         scenario_.coverage_radius_m;
+             scenario_.coverage_radius_m &&
+         HasLineOfSightLiterally(scenario_, cell, at);
 }
 
 std::vector<Situation> ExhaustiveSearch::Next(const Situation& situation) const {
@@ -82,7 +87,7 @@ std::vector<Situation> ExhaustiveSearch::Next(const Situation& situation) const 
     }
     for (const auto& [columns, rows] : {std::pair(0, 1), {0, -1}, {1, 0}, {-1, 0}, {0, 0}}) {
       const Cell cell{situation.cell.column + columns, situation.cell.row + rows};
-      if (cell.column < 0 || cell.row < 0 || cell.column >= scenario_.columns || cell.row >= scenario_.rows) {
+      if (!MayFlyLiterally(scenario_, cell)) {
         continue;  // it would stay where it is, which is hovering
       }
       all.push_back({situation.slot + 1, cell, aoi, situation.hovers + (columns == 0 && rows == 0 ? 1 : 0)});
@@ -144,13 +149,14 @@ double ExhaustiveSearch::LeastAverageAoi() {
   return CostToGo(Start()) / weights / scenario_.slots;
 }
 
-Scenario TinyScenario(uint32_t index) {
-  RandomStream stream = TestStream(20, index);
-  Scenario scenario = RandomGrid(4, 3, &stream);
+namespace {
+
+// Fills in everything but grid and map.
+void FillTiny(uint32_t index, RandomStream& stream, Scenario& scenario) {
   const int sensors = Between(&stream, 1, 3);
   const int distance = MovesToStop(scenario);
   const int most_slots = sensors == 3 ? 8 : 10;
-  const int most_slack = std::min(Between(&stream, 0, 7), most_slots - 1 - distance);
+  const int most_slack = std::max(0, std::min(Between(&stream, 0, 7), most_slots - 1 - distance));
   scenario.slots = std::max(2, distance + 1 + most_slack);
   scenario.sensors =
       RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, sensors, 1000 + uint64_t{index});
@@ -161,6 +167,22 @@ Scenario TinyScenario(uint32_t index) {
   }
   SetWeights(&scenario, &stream);
   SetEnergy(&scenario, distance, &stream);
+}
+
+}  // namespace
+
+Scenario TinyScenario(uint32_t index) {
+  RandomStream stream = TestStream(20, index);
+  Scenario scenario = RandomGrid(4, 3, &stream);
+  FillTiny(index, stream, scenario);
+  return scenario;
+}
+
+Scenario TinyMapScenario(uint32_t index) {
+  RandomStream stream = TestStream(22, index);
+  Scenario scenario = RandomGrid(4, 4, &stream);
+  AddRandomMap(&scenario, &stream);
+  FillTiny(index, stream, scenario);
   return scenario;
 }
 

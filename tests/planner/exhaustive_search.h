@@ -56,6 +56,9 @@ class ExhaustiveSearch {
 /// fractional or zero; a third with a cap on the AoI. Always valid.
 Scenario TinyScenario(uint32_t index);
 
+/// The same with a map of obstacles, up to 4 x 4 cells and 11 slots. Always valid.
+Scenario TinyMapScenario(uint32_t index);
+
 /// Whether fewer slots than the flight's can be spent on whichever of hovering and flying takes more energy.
 bool EnergyBinds(const Scenario& scenario);
 bool HoveringIsDearer(const Scenario& scenario);

@@ -16,6 +16,7 @@
 #include "tests/worlds/table_one.h"
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/baselines.h"
+#include "worlds/uav/obstacle_map.h"
 
 namespace fresco {
 namespace {
@@ -134,6 +135,36 @@ TEST(Planner, FindsTheOptimumOfExhaustiveSearchInEveryKindOfScenario) {
     EXPECT_GE(kinds[kind], 30) << kind;
   }
   EXPECT_GT(below_baselines, 100);  // there was something to find
+}
+
+TEST(Planner, FindsTheOptimumOfExhaustiveSearchAmongObstacles) {
+  std::map<std::string, int> kinds;
+  for (uint32_t index = 0; index < 500; ++index) {
+    SCOPED_TRACE(index);
+    const Scenario scenario = TinyMapScenario(index);
+    const UavWorld world(scenario);
+    const Plan plan = PlanOptimally(world);
+    const AoiFigures figures = Figures(world, plan.flight);
+    ASSERT_TRUE(plan.optimal);
+    ASSERT_NEAR(figures.average_aoi, ExhaustiveSearch(scenario).LeastAverageAoi(), 1e-9);
+    ASSERT_EQ(plan.lower_bound_average_aoi, figures.average_aoi);
+    ExpectFlies(scenario, plan.flight);
+    ASSERT_FALSE(HasFailure());
+    Scenario open = scenario;
+    open.map = nullptr;
+    const int manhattan = MovesToStop(open);
+    kinds["a detour"] += MovesToStop(scenario) > manhattan;
+    kinds["enclosed"] +=
+        scenario.map->CellsAround(scenario.start).size() == 1 && scenario.columns * scenario.rows > 1;
+    kinds["worse than open"] += figures.average_aoi > ExhaustiveSearch(open).LeastAverageAoi() + 1e-9;
+    kinds["few hovers"] += EnergyBinds(scenario) && HoveringIsDearer(scenario);
+    kinds["few flown slots"] += EnergyBinds(scenario) && !HoveringIsDearer(scenario);
+  }
+  EXPECT_GE(kinds["a detour"], 10);
+  EXPECT_GE(kinds["enclosed"], 10);
+  for (const char* kind : {"worse than open", "few hovers", "few flown slots"}) {
+    EXPECT_GE(kinds[kind], 30) << kind;
+  }
 }
 
 // Sensors over the centres of cells, radius in cells, Table I otherwise.

@@ -94,7 +94,7 @@ Scenario FieldOf(int sensors) {
 
 TEST(ScenarioMessages, CarryEverySensorOnceAndInOrder) {
   for (const auto& [sensors, expected_messages] :
-       {std::pair{1, 1}, {3, 1}, {48, 1}, {49, 2}, {96, 2}, {97, 3}, {250, 6}}) {
+       {std::pair{1, 1}, {3, 1}, {24, 1}, {25, 2}, {48, 2}, {49, 3}, {250, 11}}) {
     const std::vector<scenario_t> messages = ScenarioMessages(UavWorld(FieldOf(sensors)));
     EXPECT_EQ(messages.size(), static_cast<size_t>(expected_messages));
     int next = 0;
@@ -110,6 +110,37 @@ TEST(ScenarioMessages, CarryEverySensorOnceAndInOrder) {
       }
     }
     EXPECT_EQ(next, sensors);
+  }
+}
+
+TEST(ScenarioMessages, CarryEveryCellOfAMapOnceAndInOrder) {
+  for (const auto& [rows, sensors, expected_messages] :
+       {std::tuple{1, 3, 1}, {16, 3, 1}, {17, 3, 2}, {64, 1, 4}, {17, 49, 3}}) {
+    std::vector<std::string> text(static_cast<size_t>(rows), "SRRRRRRRNNNNNNNNNNNNNNNNBBBBBBB.");
+    text.back() = "SRRRRRRRRRRRRRRRRRRRRRRRRRRRRRRR";  // the southern row
+    Scenario scenario = FieldOf(sensors);
+    scenario.columns = 32;
+    scenario.rows = rows;
+    scenario.start = scenario.stop = {0, 0};
+    scenario.map = std::make_shared<ObstacleMap>(text);
+    const std::vector<scenario_t> messages = ScenarioMessages(UavWorld(scenario));
+    EXPECT_EQ(messages.size(), static_cast<size_t>(expected_messages));
+    size_t next = 0;
+    int32_t heard = 0;
+    for (const scenario_t& message : messages) {
+      scenario_t decoded{};
+      ASSERT_TRUE(Decode(Encoded(message), decoded));
+      EXPECT_EQ(decoded.total_cells, 32 * rows);
+      EXPECT_EQ(static_cast<size_t>(decoded.first_cell), next);
+      EXPECT_EQ(decoded.first_sensor, heard);
+      heard += decoded.sensor_count;
+      for (const uint8_t kind : decoded.cell_kind) {
+        EXPECT_EQ(kind, static_cast<uint8_t>(text[text.size() - 1 - next / 32][next % 32])) << next;
+        ++next;
+      }
+    }
+    EXPECT_EQ(next, static_cast<size_t>(32 * rows));
+    EXPECT_EQ(heard, sensors);
   }
 }
 

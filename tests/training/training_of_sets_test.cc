@@ -9,7 +9,7 @@ namespace {
 
 TEST(TrainingOfSets, ReachesTheOptimumOfASmallField) {
   const Experiment experiment = SmallSetExperiment(
-      {{"schedule.episodes", "400"}, {"schedule.excursion_share", "0.3"}, {"agent.replay_capacity", "5000"}});
+      {{"schedule.episodes", "800"}, {"schedule.excursion_share", "0.3"}, {"agent.replay_capacity", "5000"}});
   const Plan plan = PlanOptimally(experiment.world(), 0);
   ASSERT_TRUE(plan.optimal);
   std::vector<double> figures(3);

@@ -59,6 +59,9 @@ class EpisodeText {
                     s.initial_energy_j, world_.flying_energy_j(), world_.hovering_energy_j(), s.reward.k1,
                     s.reward.k2, s.reward.k3);
     text_ += s.maximum_aoi ? Format("AoI at most %d\n", *s.maximum_aoi) : "";
+    for (const std::string& row : s.map != nullptr ? s.map->Text() : std::vector<std::string>()) {
+      text_ += "map " + row + "\n";
+    }
     for (size_t i = 0; i < s.sensors.size(); ++i) {
       text_ += Format("sensor %d at %g m, %g m, theta %.6f, covered within %g m\n", static_cast<int>(i) + 1,
                       s.sensors[i].x_m, s.sensors[i].y_m, world_.theta()[i], s.coverage_radius_m);
@@ -107,9 +110,10 @@ class EpisodeText {
       waited_ = 0;
     }
     const Cell stop = world_.scenario().stop;
-    action.move = MoveTowards(state.cell, next_ < pilot_.waypoints.size() ? pilot_.waypoints[next_] : stop);
+    const Cell goal = next_ < pilot_.waypoints.size() ? pilot_.waypoints[next_] : stop;
+    action.move = MoveTowards(world_.map(), state.cell, goal);
     if (pilot_.obeys_mask && !MayMove(action.move)) {
-      action.move = MoveTowards(state.cell, stop);
+      action.move = MoveTowards(world_.map(), state.cell, stop);
     }
     return action;
   }
@@ -157,6 +161,17 @@ Scenario UnusualScenario() {
 
 TEST(GoldenEpisodes, CappedAoiWeightsAndAnotherRotor) {
   ExpectGolden("capped_aoi", UnusualScenario(), {{{4, 1}, {1, 0}}, 0});
+}
+
+TEST(GoldenEpisodes, ATownWithHousesAndAPark) {
+  Scenario scenario = UnusualScenario();
+  scenario.map = std::make_shared<ObstacleMap>(std::vector<std::string>{
+      "S..B.S",
+      ".R.B..",
+      ".R....",
+      "..N...",
+  });
+  ExpectGolden("town", scenario, {{{4, 1}, {1, 0}}, 0});
 }
 
 TEST(GoldenEpisodes, WithoutTheMaskTheUavGetsLost) {

@@ -7,28 +7,50 @@
 #include <set>
 #include <utility>
 
+#include "worlds/uav/obstacle_map.h"
+
 namespace fresco {
 namespace {
 
 const std::map<std::string, std::pair<int, int>> kSteps = {
     {"north", {0, 1}}, {"south", {0, -1}}, {"east", {1, 0}}, {"west", {-1, 0}}, {"hover", {0, 0}}};
 
+/// '.' without a map.
+char KindLiterally(const Scenario& scenario, Cell cell) {
+  return scenario.map == nullptr ? '.' : static_cast<char>(scenario.map->KindOf(cell));
+}
+
+/// Whether the inside of a cell has points on the line; all in parts of a cell.
+bool Cuts(int64_t x, int64_t y, int64_t end_x, int64_t end_y, int64_t west, int64_t south, int64_t side) {
+  if (std::max(x, end_x) <= west || std::min(x, end_x) >= west + side || std::max(y, end_y) <= south ||
+      std::min(y, end_y) >= south + side) {
+    return false;
+  }
+  if (x == end_x && y == end_y) {
+    return true;
+  }
+  bool left = false;
+  bool right = false;
+  for (const auto& [corner_x, corner_y] :
+       {std::pair(west, south), {west + side, south}, {west, south + side}, {west + side, south + side}}) {
+    const int64_t turn = (end_x - x) * (corner_y - y) - (end_y - y) * (corner_x - x);
+    left = left || turn > 0;
+    right = right || turn < 0;
+  }
+  return left && right;
+}
+
 Cell Moved(const Scenario& scenario, Cell cell, const std::string& move) {
   const auto [columns, rows] = kSteps.at(move);
   const Cell next{cell.column + columns, cell.row + rows};
-  const bool outside =
-      next.column < 0 || next.row < 0 || next.column >= scenario.columns || next.row >= scenario.rows;
-  return outside ? cell : next;
-}
-
-int Manhattan(Cell a, Cell b) {
-  return std::abs(a.column - b.column) + std::abs(a.row - b.row);
+  return MayFlyLiterally(scenario, next) ? next : cell;
 }
 
 bool InCoverage(const Scenario& scenario, Cell cell, const Sensor& sensor) {
   const double x = cell.column * scenario.cell_m - sensor.x_m;
   const double y = cell.row * scenario.cell_m - sensor.y_m;
-  return std::sqrt(x * x + y * y) <= scenario.coverage_radius_m;
+  return std::sqrt(x * x + y * y) <= scenario.coverage_radius_m &&
+         HasLineOfSightLiterally(scenario, cell, sensor);
 }
 
 // t - U_n(t): slots since the last one in which sensor n was scheduled under coverage, slot 0 at first.
@@ -58,6 +80,63 @@ double LiteralReward(const Scenario& scenario, const LiteralState& state) {
 
 }  // namespace
 
+bool MayFlyLiterally(const Scenario& scenario, Cell cell) {
+  const bool outside =
+      cell.column < 0 || cell.row < 0 || cell.column >= scenario.columns || cell.row >= scenario.rows;
+  return !outside && KindLiterally(scenario, cell) != 'N' && KindLiterally(scenario, cell) != 'B';
+}
+
+int LiteralDistance(const Scenario& scenario, Cell from, Cell to) {
+  if (scenario.map == nullptr) {
+    return std::abs(from.column - to.column) + std::abs(from.row - to.row);
+  }
+  constexpr int kFar = 1'000'000;
+  std::map<std::pair<int, int>, int> distances;
+  for (int column = 0; column < scenario.columns; ++column) {
+    for (int row = 0; row < scenario.rows; ++row) {
+      distances[{column, row}] = Cell{column, row} == from && MayFlyLiterally(scenario, from) ? 0 : kFar;
+    }
+  }
+  for (bool falling = true; falling;) {
+    falling = false;
+    for (auto& [place, distance] : distances) {
+      for (const auto& [move, step] : kSteps) {
+        const std::pair next = {place.first + step.first, place.second + step.second};
+        if (distance < kFar && MayFlyLiterally(scenario, {next.first, next.second}) &&
+            distances[next] > distance + 1) {
+          distances[next] = distance + 1;
+          falling = true;
+        }
+      }
+    }
+  }
+  return distances[{to.column, to.row}];
+}
+
+bool HasLineOfSightLiterally(const Scenario& scenario, Cell cell, const Sensor& sensor) {
+  constexpr int64_t kSide = 65536;
+  const auto rounded = [&](double position_m) {
+    return static_cast<int64_t>(std::floor(position_m / scenario.cell_m * kSide + 0.5));
+  };
+  for (int column = 0; scenario.map != nullptr && column < scenario.columns; ++column) {
+    for (int row = 0; row < scenario.rows; ++row) {
+      const char kind = KindLiterally(scenario, {column, row});
+      const double x = static_cast<double>(rounded(sensor.x_m)) / kSide;
+      const double y = static_cast<double>(rounded(sensor.y_m)) / kSide;
+      // On an edge between two cells, a sensor stands in the western or southern one; on the map's edge, in
+      // the only one.
+      const bool stands_here = (x > column - 0.5 || column == 0) && x <= column + 0.5 &&
+                               (y > row - 0.5 || row == 0) && y <= row + 0.5;
+      if ((kind == 'R' || kind == 'B') && !stands_here &&
+          Cuts(cell.column * kSide, cell.row * kSide, rounded(sensor.x_m), rounded(sensor.y_m),
+               column * kSide - kSide / 2, row * kSide - kSide / 2, kSide)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 double LiteralPower(const Rotor& rotor, double speed_mps) {
   const double x = std::pow(speed_mps / rotor.induced_velocity_mps, 2) / 2;
   // For large x, sqrt(1 + x^2) - x is 1 / (2 x), and its root v0 / V.
@@ -84,7 +163,7 @@ LiteralState SimulateLiterally(const Scenario& scenario, const std::vector<Actio
     state.aoi.push_back(LiteralAoi(scenario, path, actions, n));
   }
   const int left = scenario.slots - static_cast<int>(path.size());
-  const int distance = Manhattan(state.cell, scenario.stop);
+  const int distance = LiteralDistance(scenario, state.cell, scenario.stop);
   state.phi = left - distance;
   const bool all_flown = flying_j <= hovering_j || state.phi < 0;
   state.delta_j =

@@ -21,6 +21,16 @@ struct LiteralState {
   std::string outcome;
 };
 
+/// Whether the cell is on the grid, and no obstacle to flight of the map, if there is one.
+bool MayFlyLiterally(const Scenario& scenario, Cell cell);
+/// The moves of the shortest flight between two cells: Manhattan, or with a map by setting distances until
+/// none falls any more; a million if there is no flight.
+int LiteralDistance(const Scenario& scenario, Cell from, Cell to);
+/// Whether no cell that blocks radio, other than the sensor's, is cut by the line from the cell's centre to
+/// the sensor: for each such cell, an edge or the line itself has all of the cell on one side. Places are
+/// rounded to a 2^16-th of a cell.
+bool HasLineOfSightLiterally(const Scenario& scenario, Cell cell, const Sensor& sensor);
+
 double LiteralPower(const Rotor& rotor, double speed_mps);
 LiteralState SimulateLiterally(const Scenario& scenario, const std::vector<Action>& actions);
 

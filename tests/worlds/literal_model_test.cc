@@ -42,17 +42,25 @@ std::string FlyBesideTheLiteralModel(const Scenario& scenario, uint32_t index) {
   return OutcomeName(environment.outcome());
 }
 
-TEST(LiteralModel, AgreesWithTheEnvironmentOnRandomFlights) {
+void ExpectAgreement(Scenario (*scenario_of)(uint32_t index), uint32_t flights) {
   std::map<std::string, int> outcomes;
-  for (uint32_t index = 0; index < 6000; ++index) {
+  for (uint32_t index = 0; index < flights; ++index) {
     SCOPED_TRACE(index);
-    ++outcomes[FlyBesideTheLiteralModel(RandomScenario(index), index)];
-    ASSERT_FALSE(HasFailure());
+    ++outcomes[FlyBesideTheLiteralModel(scenario_of(index), index)];
+    ASSERT_FALSE(testing::Test::HasFailure());
   }
   EXPECT_GT(outcomes["arrived"], 100);
   EXPECT_GT(outcomes["out of time"], 100);
   EXPECT_GT(outcomes["out of energy"], 100);
   EXPECT_EQ(outcomes.size(), 3u);
+}
+
+TEST(LiteralModel, AgreesWithTheEnvironmentOnRandomFlights) {
+  ExpectAgreement(RandomScenario, 6000);
+}
+
+TEST(LiteralModel, AgreesWithTheEnvironmentAmongObstacles) {
+  ExpectAgreement(RandomMapScenario, 2000);
 }
 
 }  // namespace

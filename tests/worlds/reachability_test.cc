@@ -54,11 +54,11 @@ class MaskSearch {
   int compared_[2] = {0, 0};
 };
 
-TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnToTheStop) {
+void ExpectExactMasks(Scenario (*scenario_of)(uint32_t index)) {
   int safe = 0;
   int unsafe = 0;
   for (uint32_t index = 0; index < 200; ++index) {
-    Scenario scenario = RandomScenario(index);
+    const Scenario scenario = scenario_of(index);
     if (scenario.slots > 11) {
       continue;
     }
@@ -74,9 +74,17 @@ TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnToTheStop) {
   EXPECT_GT(unsafe, 1000);
 }
 
+TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnToTheStop) {
+  ExpectExactMasks(RandomScenario);
+}
+
+TEST(SafeActionMask, AdmitsAMoveIffSomeFlightGoesOnRoundTheObstacles) {
+  ExpectExactMasks(RandomMapScenario);
+}
+
 TEST(SafeActionMask, LetsRandomFlightsAlwaysArrive) {
   for (uint32_t index = 0; index < 2000; ++index) {
-    const UavWorld world(RandomScenario(index));
+    const UavWorld world(index % 2 == 0 ? RandomScenario(index) : RandomMapScenario(index));
     UavEnvironment environment(world);
     RandomStream stream = TestStream(3, index);
     while (environment.outcome() == Outcome::kFlying) {
@@ -93,7 +101,7 @@ TEST(SafeActionMask, LetsRandomFlightsAlwaysArrive) {
 TEST(UavWorld, AcceptsAScenarioIffSomeFlightReachesTheStop) {
   int refused = 0;
   for (uint32_t index = 0; index < 1000; ++index) {
-    Scenario scenario = RandomScenario(index);
+    Scenario scenario = index % 2 == 0 ? RandomScenario(index) : RandomMapScenario(index);
     RandomStream stream = TestStream(4, index);
     scenario.initial_energy_j = 1 + scenario.slots * 200 * stream.NextUniform();
     bool accepted = true;
@@ -151,6 +159,20 @@ TEST(Reachability, OnASingleCellAllSlackIsHovered) {
   const UavWorld world(scenario);
   EXPECT_TRUE(UavEnvironment(world).IsSafe(Move::kHover));
   EXPECT_FALSE(UavEnvironment(world).IsSafe(Move::kNorth));
+}
+
+TEST(Reachability, OnACellThatObstaclesEncloseAllSlackIsHovered) {
+  Scenario scenario = SquareField(3, 5, {1, 1}, {1, 1}, {{0, 0, 1}});
+  scenario.map = std::make_shared<ObstacleMap>(std::vector<std::string>{".N.", "BSN", ".B."});
+  scenario.initial_energy_j = 4 * 219.82 - 0.01;  // far more than four slots flown
+  EXPECT_THROW(UavWorld{scenario}, Error);
+  scenario.initial_energy_j = 4 * 219.82 + 0.01;
+  const UavWorld world(scenario);
+  EXPECT_TRUE(UavEnvironment(world).IsSafe(Move::kHover));
+  for (const Move move : {Move::kNorth, Move::kSouth, Move::kEast, Move::kWest}) {
+    EXPECT_FALSE(UavEnvironment(world).IsSafe(move));
+    EXPECT_EQ(world.After({1, 1}, move), (Cell{1, 1}));
+  }
 }
 
 TEST(Reachability, AnOddSlackTakesAHoverWhereHoveringIsTheDearer) {

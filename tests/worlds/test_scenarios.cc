@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "tests/worlds/table_one.h"
+#include "worlds/uav/obstacle_map.h"
 
 namespace fresco {
 namespace {
@@ -46,6 +49,9 @@ Scenario RandomGrid(int most_columns, int most_rows, RandomStream* stream) {
 }
 
 int MovesToStop(const Scenario& scenario) {
+  if (scenario.map != nullptr) {
+    return scenario.map->Distance(scenario.start, scenario.stop);
+  }
   return std::abs(scenario.start.column - scenario.stop.column) +
          std::abs(scenario.start.row - scenario.stop.row);
 }
@@ -66,6 +72,35 @@ Scenario RandomScenario(uint32_t index) {
   if (Between(&stream, 0, 3) == 0) {
     scenario.maximum_aoi = Between(&stream, 1, scenario.slots);
   }
+  do {
+    scenario.initial_energy_j = scenario.slots * 300 * stream.NextUniform() + 1;
+  } while (!IsValid(scenario));
+  return scenario;
+}
+
+void AddRandomMap(Scenario* scenario, RandomStream* stream) {
+  constexpr char kKinds[] = "......NNRRBBS";
+  do {
+    std::vector<std::string> text(static_cast<size_t>(scenario->rows));
+    for (std::string& row : text) {
+      for (int column = 0; column < scenario->columns; ++column) {
+        row.push_back(kKinds[Between(stream, 0, 12)]);
+      }
+    }
+    for (const Cell cell : {scenario->start, scenario->stop}) {
+      char& kind = text[text.size() - 1 - static_cast<size_t>(cell.row)][static_cast<size_t>(cell.column)];
+      kind = Between(stream, 0, 1) == 0 ? 'S' : 'R';
+    }
+    scenario->map = std::make_shared<ObstacleMap>(text);
+  } while (MovesToStop(*scenario) == ObstacleMap::kCutOff);
+}
+
+Scenario RandomMapScenario(uint32_t index) {
+  Scenario scenario = RandomScenario(index);
+  RandomStream stream = TestStream(31, index);
+  AddRandomMap(&scenario, &stream);
+  scenario.slots = std::max(2, MovesToStop(scenario) + 1 + Between(&stream, 0, 7));
+  scenario.coverage_radius_m *= 2;
   do {
     scenario.initial_energy_j = scenario.slots * 300 * stream.NextUniform() + 1;
   } while (!IsValid(scenario));

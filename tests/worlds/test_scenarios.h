@@ -19,12 +19,19 @@ Rotor LiteratureRotor();
 /// Table I over a random grid of at most so many cells, with random start and stop.
 Scenario RandomGrid(int most_columns, int most_rows, RandomStream* stream);
 
-/// Moves from the start to the stop.
+/// Moves from the start to the stop, round the obstacles of the map, if there is one.
 int MovesToStop(const Scenario& scenario);
 
 /// Grids of 1 x 1 to 5 x 5, up to nine slots of slack, 1 to 4 sensors of any weight, either rotor, an
 /// energy between just enough and plenty, sometimes a cap on the AoI. Always valid.
 Scenario RandomScenario(uint32_t index);
+
+/// The same with a map: cells of all kinds, at most 5 x 5, between which the stop can be reached.
+Scenario RandomMapScenario(uint32_t index);
+
+/// Puts a random map under a scenario whose start and stop are on the grid, such that flights lead from one
+/// to the other. Slots and energy may be too few then.
+void AddRandomMap(Scenario* scenario, RandomStream* stream);
 
 /// A stream of its own for each test and case.
 RandomStream TestStream(uint32_t test, uint32_t index);

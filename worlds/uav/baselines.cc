@@ -1,8 +1,8 @@
 #include "worlds/uav/baselines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 
@@ -31,20 +31,32 @@ int OldestAfter(const UavState& state, int served_now) {
   return oldest >= 0 ? oldest : served_now;
 }
 
-// Returns the index of the nearest cell along one axis; half-way between two cells, the lower one.
-int NearestIndex(double position_m, double cell_m, int cells) {
-  const double index = std::ceil(position_m / cell_m - 0.5);
-  return static_cast<int>(std::clamp(index, 0.0, cells - 1.0));
-}
-
-Cell NearestCell(const Scenario& scenario, const Sensor& sensor) {
-  return {NearestIndex(sensor.x_m, scenario.cell_m, scenario.columns),
-          NearestIndex(sensor.y_m, scenario.cell_m, scenario.rows)};
+/// The cell to aim at for a sensor: the nearest one. With a map, only cells count that flights lead to, and
+/// of these those that cover the sensor, if there are any; of equal ones, the first by CellIndex.
+Cell GoalOf(const UavWorld& world, int number) {
+  const Scenario& scenario = world.scenario();
+  const Sensor& sensor = scenario.sensors[static_cast<size_t>(number)];
+  if (world.map() == nullptr) {
+    return CellOf(sensor, scenario.cell_m, scenario.columns, scenario.rows);
+  }
+  Cell goal = scenario.stop;
+  bool covers = false;
+  double smallest_m = std::numeric_limits<double>::infinity();
+  for (const Cell cell : world.map()->CellsAround(scenario.start)) {
+    const bool better = world.Covers(cell, number);
+    const double distance_m = HorizontalDistance(cell, scenario.cell_m, sensor);
+    if (better > covers || (better == covers && distance_m < smallest_m)) {
+      goal = cell;
+      covers = better;
+      smallest_m = distance_m;
+    }
+  }
+  return goal;
 }
 
 // Flies to the stop. Once there, hovers if the energy allows it, and otherwise flies to and fro.
-Move MoveHome(const UavEnvironment& environment, Cell stop) {
-  const Move direct = MoveTowards(environment.state().cell, stop);
+Move MoveHome(const UavWorld& world, const UavEnvironment& environment) {
+  const Move direct = MoveTowards(world.map(), environment.state().cell, world.scenario().stop);
   if (environment.IsSafe(direct)) {
     return direct;
   }
@@ -59,6 +71,9 @@ Move MoveHome(const UavEnvironment& environment, Cell stop) {
 }  // namespace
 
 Baseline::Baseline(BaselineKind kind, const UavWorld& world) : kind_(kind), world_(&world) {
+  for (int sensor = 0; sensor < world.sensors(); ++sensor) {
+    goals_.push_back(GoalOf(world, sensor));
+  }
   Reset();
 }
 
@@ -69,14 +84,12 @@ void Baseline::Reset() {
 
 Action Baseline::Choose(const UavEnvironment& environment) {
   const UavState& state = environment.state();
-  const Scenario& scenario = world_->scenario();
   const int served_now = Oldest(state, [&](int sensor) { return world_->Covers(state.cell, sensor); });
   const int target =
       kind_ == BaselineKind::kAoi ? OldestAfter(state, served_now) : NextOfRound(state.cell, served_now);
-  const Cell goal = NearestCell(scenario, scenario.sensors[static_cast<size_t>(target)]);
-  const Move wanted = MoveTowards(state.cell, goal);
+  const Move wanted = MoveTowards(world_->map(), state.cell, goals_[static_cast<size_t>(target)]);
   returning_ = returning_ || !environment.IsSafe(wanted);
-  return {returning_ ? MoveHome(environment, scenario.stop) : wanted, served_now + 1};
+  return {returning_ ? MoveHome(*world_, environment) : wanted, served_now + 1};
 }
 
 int Baseline::NextOfRound(Cell cell, int served_now) {
@@ -88,13 +101,15 @@ int Baseline::NextOfRound(Cell cell, int served_now) {
   }
   const Scenario& scenario = world_->scenario();
   int nearest = -1;
-  double smallest_m = std::numeric_limits<double>::infinity();
+  std::pair<int, double> smallest = {std::numeric_limits<int>::max(), 0};  // moves, metres
   for (int index = 0; index < world_->sensors(); ++index) {
     const Sensor& sensor = scenario.sensors[static_cast<size_t>(index)];
-    const double distance_m = HorizontalDistance(cell, scenario.cell_m, sensor);
-    if (served_[static_cast<size_t>(index)] == 0 && distance_m < smallest_m) {
+    const int moves =
+        world_->map() == nullptr ? 0 : world_->map()->Distance(cell, goals_[static_cast<size_t>(index)]);
+    const std::pair distance = {moves, HorizontalDistance(cell, scenario.cell_m, sensor)};
+    if (served_[static_cast<size_t>(index)] == 0 && distance < smallest) {
       nearest = index;
-      smallest_m = distance_m;
+      smallest = distance;
     }
   }
   return nearest;

@@ -13,12 +13,15 @@ namespace fresco {
 /// sensor that transmits in the slot counts as served. Of equal sensors it takes the lowest index.
 enum class BaselineKind {
   kAoi,       ///< the sensor with the largest AoI
-  kDistance,  ///< in rounds: the nearest sensor that was not served in this round yet
+  kDistance,  ///< in rounds: the nearest sensor that was not served in this round yet. With a map, by the
+              ///< moves to the cell that the UAV would fly to; of equal ones, the nearest in metres
 };
 
 /// A baseline that flies one episode at a time. In each slot it schedules the covered sensor with the largest
 /// AoI and flies one cell towards the cell nearest to its target, along the axis with the larger distance
-/// (columns if they are equal). As soon as that move would put the stop out of reach, it flies to the stop
+/// (columns if they are equal). With a map, it flies to the nearest of the cells that cover its target (of
+/// the cells that flights lead to, if none covers it), by a shortest way round the obstacles (MoveTowards in
+/// uav_world.h). As soon as that move would put the stop out of reach, it flies to the stop
 /// and stays there, so it always arrives.
 class Baseline {
  public:
@@ -35,6 +38,7 @@ class Baseline {
 
   BaselineKind kind_;
   const UavWorld* world_;
+  std::vector<Cell> goals_;      // by sensor: the cell to fly to
   std::vector<uint8_t> served_;  // by sensor: 1 if served in this round; for kDistance only
   bool returning_ = false;       // on the way to the stop until the episode ends
 };

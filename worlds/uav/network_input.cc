@@ -1,6 +1,7 @@
 #include "worlds/uav/network_input.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "worlds/uav/flight.h"
@@ -35,10 +36,20 @@ float ScaledDistance(const Scenario& scenario, Cell cell, const Sensor& sensor) 
   return static_cast<float>(HorizontalDistance(cell, scenario.cell_m, sensor) / Side(scenario));
 }
 
+/// The length of the way to the sensor, as MapInput has it.
+float WayTo(const MapInput& map_input, Cell cell, const Scenario& scenario, const Sensor& sensor) {
+  std::array<float, MapInput::kInputs> way{};
+  if (scenario.map->MayFly(cell)) {
+    map_input.WriteWayToSensor(cell, sensor, scenario.coverage_radius_m, way);
+  }
+  return way[0];
+}
+
 }  // namespace
 
-ObservationSets SetsOf(int sensors) {
-  return {kOwnInputs, sensors, kSensorInputs, kMoves};
+ObservationSets SetsOf(int sensors, bool has_map) {
+  const int of_map = has_map ? static_cast<int>(MapInput::kInputs) : 0;
+  return {kOwnInputs + of_map, sensors, kSensorInputs + of_map, kMoves};
 }
 
 void WriteSets(const ObservedField& field, std::span<const float> state, std::span<float> input) {
@@ -58,6 +69,13 @@ void WriteSets(const ObservedField& field, std::span<const float> state, std::sp
   *next++ = state[kTimeMarginField] / slots;
   *next++ = state[kEnergyMarginField] / static_cast<float>(field.initial_energy_j);
   *next++ = metres(field.coverage_radius_m);
+  const auto write_map_input = [&](auto write) {
+    if (field.map_input != nullptr) {
+      write(std::span<float>(next, MapInput::kInputs));
+      next += MapInput::kInputs;
+    }
+  };
+  write_map_input([&](std::span<float> way) { field.map_input->WriteWayToStop(cell, field.stop, way); });
   for (size_t i = 0; i < field.sensors.size(); ++i) {
     const Sensor& sensor = field.sensors[i];
     const double distance_m = HorizontalDistance(cell, field.cell_m, sensor);
@@ -65,19 +83,27 @@ void WriteSets(const ObservedField& field, std::span<const float> state, std::sp
     *next++ = metres(sensor.x_m - cell.column * field.cell_m);
     *next++ = metres(sensor.y_m - cell.row * field.cell_m);
     *next++ = metres(distance_m);
-    *next++ = IsWithin(field.coverage_radius_m, distance_m) ? 1 : 0;
+    const bool is_covered = IsWithin(field.coverage_radius_m, distance_m) &&
+                            (field.map == nullptr || field.map->HasLineOfSight(cell, sensor, field.cell_m));
+    *next++ = is_covered ? 1 : 0;
     *next++ = state[kAoiField + i] / slots;
     *next++ = static_cast<float>(sensor.weight / total_weight);
+    write_map_input([&](std::span<float> way) {
+      field.map_input->WriteWayToSensor(cell, sensor, field.coverage_radius_m, way);
+    });
   }
   std::fill(next, input.end(), 0.0f);
 }
 
 NetworkInput::NetworkInput(const UavWorld& world, NetworkInputOptions options)
     : world_(&world), options_(options) {
+  const Scenario& scenario = world.scenario();
+  if (world.map() != nullptr && (options.sets || options.sensor_geometry)) {
+    map_input_.emplace(*world.map(), scenario.cell_m, scenario.coverage_radius_m);
+  }
   if (!options.sensor_geometry || options.sets) {
     return;
   }
-  const Scenario& scenario = world.scenario();
   geometry_.reserve(static_cast<size_t>(scenario.columns) * static_cast<size_t>(scenario.rows) * 2 *
                     scenario.sensors.size());
   for (int row = 0; row < scenario.rows; ++row) {
@@ -86,27 +112,31 @@ NetworkInput::NetworkInput(const UavWorld& world, NetworkInputOptions options)
         geometry_.push_back(world.Covers({column, row}, sensor) ? 1.0f : 0.0f);
       }
       for (const Sensor& sensor : scenario.sensors) {
-        geometry_.push_back(ScaledDistance(scenario, {column, row}, sensor));
+        geometry_.push_back(map_input_ ? WayTo(*map_input_, {column, row}, scenario, sensor)
+                                       : ScaledDistance(scenario, {column, row}, sensor));
       }
     }
   }
 }
 
-int NetworkInput::Size(int sensors, NetworkInputOptions options) {
+int NetworkInput::Size(int sensors, NetworkInputOptions options, bool has_map) {
   if (options.sets) {
-    return kOwnInputs + sensors * kSensorInputs;
+    const ObservationSets sets = SetsOf(sensors, has_map);
+    return sets.own_inputs + sensors * sets.item_inputs;
   }
   return sensors + 4 + (options.sensor_geometry ? 2 * sensors : 0);
 }
 
 void NetworkInput::Write(std::span<const float> state, std::span<float> input) const {
   const auto sensors = static_cast<size_t>(world_->sensors());
-  FRESCO_CHECK(input.size() == static_cast<size_t>(Size(world_->sensors(), options_)));
+  FRESCO_CHECK(input.size() ==
+               static_cast<size_t>(Size(world_->sensors(), options_, world_->map() != nullptr)));
   FRESCO_CHECK(state.size() == kAoiField + sensors);
   const Scenario& scenario = world_->scenario();
   if (options_.sets) {
     WriteSets({scenario.columns, scenario.rows, scenario.cell_m, scenario.initial_energy_j, scenario.slots,
-               scenario.coverage_radius_m, scenario.stop, scenario.sensors},
+               scenario.coverage_radius_m, scenario.stop, scenario.sensors, world_->map(),
+               map_input_ ? &*map_input_ : nullptr},
               state, input);
     return;
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "worlds/uav/map_input.h"
 #include "worlds/uav/scenario.h"
 #include "worlds/world.h"
 
@@ -31,33 +32,41 @@ struct ObservedField {
   double coverage_radius_m = 0;
   Cell stop;
   std::span<const Sensor> sensors;
+  const ObstacleMap* map = nullptr;     ///< if there is one
+  const MapInput* map_input = nullptr;  ///< of this map
 };
 
 /// What a world states about an observation for agent.set_network with at most so many sensors.
-ObservationSets SetsOf(int sensors);
+ObservationSets SetsOf(int sensors, bool has_map);
 
 /// Writes an observation for agent.set_network. First the UAV's own numbers: column, row, the way to the stop
 /// (columns, rows), phi / T, Delta / E_max, R. Then for each sensor: 1, the way to it (east, north), its
 /// distance, 1 if it is covered or else 0, delta_n / T and theta_n. Lengths are divided by the grid's longer
 /// side. `state` begins with the fields of a UavWorld (uav_world.h); entries behind those of the sensors are
-/// 0, as for sensors that the field does not have. The order of the sensors changes no bit of an entry.
+/// 0, as for sensors that the field does not have. The order of the sensors changes no bit of an entry. With
+/// a map, MapInput's way to the stop follows the UAV's own numbers, and its way to the sensor those of each
+/// sensor.
 void WriteSets(const ObservedField& field, std::span<const float> state, std::span<float> input);
 
 /// With `sets`, the input is that of WriteSets.
 ///
 /// Otherwise the entries of the input are column / (columns - 1), row / (rows - 1), delta_n / T for each of
 /// the N sensors, phi / T and Delta / E_max. With sensor_geometry, there follow N entries of 1 or 0 (sensor n
-/// is covered or not) and N distances to the sensors, divided by the grid's longer side. If the grid has one
-/// column (or row), that entry is 0.
+/// is covered or not) and N distances to the sensors, divided by the grid's longer side (with a
+/// map: the moves to the nearest cell that covers it, divided by S, at most 2). If the grid has one column
+/// (or row), that entry is 0.
 class NetworkInput {
  public:
   /// `world` must outlive the object.
   NetworkInput(const UavWorld& world, NetworkInputOptions options);
 
-  /// The number of entries for so many sensors.
-  static int Size(int sensors, NetworkInputOptions options);
-  /// The memory of the geometry table, bytes.
-  int64_t bytes() const { return static_cast<int64_t>(geometry_.size() * sizeof(geometry_[0])); }
+  /// The number of entries for so many sensors, with a map or without one.
+  static int Size(int sensors, NetworkInputOptions options, bool has_map = false);
+  /// The memory of the tables, bytes.
+  int64_t bytes() const {
+    return static_cast<int64_t>(geometry_.size() * sizeof(geometry_[0])) +
+           (map_input_ ? map_input_->bytes() : 0);
+  }
 
   /// Writes the entries to `input` for a state as floats (uav_world.h says where each field is). CHECKs both
   /// sizes.
@@ -66,7 +75,8 @@ class NetworkInput {
  private:
   const UavWorld* world_;
   NetworkInputOptions options_;
-  std::vector<float> geometry_;  // for every cell: N times covered or not, then N distances
+  std::optional<MapInput> map_input_;  // with `sets` and a map
+  std::vector<float> geometry_;        // for every cell: N times covered or not, then N distances
 };
 
 }  // namespace fresco

@@ -1,9 +1,13 @@
 #include "worlds/uav/scenario.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "core/random.h"
+#include "worlds/uav/obstacle_map.h"
 
 namespace fresco {
 
@@ -20,6 +24,31 @@ std::vector<Sensor> RandomSensors(int columns, int rows, double cell_m, int coun
   for (Sensor& sensor : sensors) {
     sensor.x_m = (stream.NextUniform() * columns - 0.5) * cell_m;
     sensor.y_m = (stream.NextUniform() * rows - 0.5) * cell_m;
+  }
+  return sensors;
+}
+
+std::vector<Sensor> RandomSensors(const Scenario& scenario, int count, uint64_t seed) {
+  if (scenario.map == nullptr) {
+    return RandomSensors(scenario.columns, scenario.rows, scenario.cell_m, count, seed);
+  }
+  std::vector<Cell> cells;
+  for (const Cell cell : scenario.map->CellsAround(scenario.start)) {
+    if (!scenario.map->BlocksRadio(cell)) {
+      cells.push_back(cell);
+    }
+  }
+  if (static_cast<size_t>(count) > cells.size()) {
+    throw UsageError(fmt::format(
+        "scenario.random_sensors: {} sensors are too many for scenario.map_row, which has {} cells "
+        "without an obstacle around scenario.start; allowed: one sensor for each of these cells",
+        count, cells.size()));
+  }
+  RandomStream stream(seed, RandomPurpose::kSensorPlacement, 0, 0);
+  std::vector<Sensor> sensors;
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    std::swap(cells[i], cells[i + stream.NextBelow(static_cast<uint32_t>(cells.size() - i))]);
+    sensors.push_back({cells[i].column * scenario.cell_m, cells[i].row * scenario.cell_m, 1});
   }
   return sensors;
 }

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace fresco {
+
+class ObstacleMap;
 
 /// The most sensors of a scenario: a transition with so many still fits one Ethernet frame
 /// (msgs/lcm/transitions_t.lcm).
@@ -69,6 +72,8 @@ struct Scenario {
   double speed_mps = 0;  ///< V
   Reward reward;
   std::optional<int> maximum_aoi;  ///< delta_max, AoI grows no further, slots; none: no limit
+  /// Obstacles (obstacle_map.h), as many columns and rows as the scenario has; null: an open grid.
+  std::shared_ptr<const ObstacleMap> map;
 };
 
 /// The horizontal distance of a sensor from a cell's centre, metres. Unlike std::hypot, it has the same bits
@@ -87,5 +92,10 @@ inline bool IsWithin(double coverage_radius_m, double distance_m) {
 /// reaches half a cell beyond the centres of the outermost cells. A pure function of its arguments; any
 /// thread may call it.
 std::vector<Sensor> RandomSensors(int columns, int rows, double cell_m, int count, uint64_t seed);
+
+/// The same for a scenario. If it has a map, the sensors stand in the centres of `count` different cells,
+/// drawn from those without an obstacle (CellKind::kFree, kStartAndLanding) that flights from the start lead
+/// to. Throws UsageError if there are fewer of these.
+std::vector<Sensor> RandomSensors(const Scenario& scenario, int count, uint64_t seed);
 
 }  // namespace fresco

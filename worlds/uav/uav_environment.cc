@@ -2,10 +2,53 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "core/error.h"
 
 namespace fresco {
+namespace {
+
+// UavWorld::After, and the distance to the stop. Without a map, which is usual, nothing is looked up and
+// little is decided by branches, which are hard to predict.
+template <bool kHasMap>
+Cell CellAfter(const UavWorld& world, Cell cell, Move move) {
+  if constexpr (kHasMap) {
+    return world.After(cell, move);
+  }
+  const Cell step = kMoveSteps[static_cast<size_t>(move)];
+  const Cell next = {cell.column + step.column, cell.row + step.row};
+  return world.OnGrid(next) ? next : cell;
+}
+
+template <bool kHasMap>
+int MovesToStop(const UavWorld& world, Cell cell) {
+  const Cell stop = world.scenario().stop;
+  return kHasMap ? world.DistanceToStop(cell)
+                 : std::abs(cell.column - stop.column) + std::abs(cell.row - stop.row);
+}
+
+/// Sets both margins of the state's slot and cell.
+template <bool kHasMap>
+void SetMargins(const UavWorld& world, double remaining_j, UavState& state) {
+  const int slots_left = world.scenario().slots - state.slot;
+  const int distance = MovesToStop<kHasMap>(world, state.cell);
+  state.time_margin = slots_left - distance;
+  state.energy_margin_j = static_cast<float>(EnergyMargin(world, distance, slots_left, remaining_j));
+}
+
+/// Flies one slot: changes everything but the ages. A move that leaves the UAV where it is takes the energy
+/// of a hover.
+template <bool kHasMap>
+void FlySlot(const UavWorld& world, Move move, double& remaining_j, UavState& state) {
+  const Cell next = CellAfter<kHasMap>(world, state.cell, move);
+  remaining_j -= next == state.cell ? world.hovering_energy_j() : world.flying_energy_j();
+  state.cell = next;
+  ++state.slot;
+  SetMargins<kHasMap>(world, remaining_j, state);
+}
+
+}  // namespace
 
 const char* OutcomeName(Outcome outcome) {
   switch (outcome) {
@@ -45,11 +88,11 @@ StepResult UavEnvironment::Step(Action action) {
   FRESCO_CHECK(outcome_ == Outcome::kFlying);
   FRESCO_CHECK(action.schedule >= 0 && action.schedule <= world_->sensors());
   Collect(action.schedule);  // from o_t, before the move
-  const Cell next = world_->After(state_.cell, action.move);
-  remaining_j_ -= SlotEnergy(next);
-  state_.cell = next;
-  ++state_.slot;
-  UpdateMargins();
+  if (world_->map() == nullptr) {
+    FlySlot<false>(*world_, action.move, remaining_j_, state_);
+  } else {
+    FlySlot<true>(*world_, action.move, remaining_j_, state_);
+  }
   outcome_ = PresentOutcome();
   return {RewardOfState(), outcome_ == Outcome::kFlying ? Ending::kNone : Ending::kTerminal};
 }
@@ -73,15 +116,12 @@ void UavEnvironment::Collect(int schedule) {
   }
 }
 
-// A move off the grid leaves the UAV where it is, so it takes the energy of a hover.
-double UavEnvironment::SlotEnergy(Cell next) const {
-  return next == state_.cell ? world_->hovering_energy_j() : world_->flying_energy_j();
-}
-
 void UavEnvironment::UpdateMargins() {
-  const int slots_left = world_->scenario().slots - state_.slot;
-  state_.time_margin = slots_left - world_->DistanceToStop(state_.cell);
-  state_.energy_margin_j = static_cast<float>(EnergyMargin(*world_, state_.cell, slots_left, remaining_j_));
+  if (world_->map() == nullptr) {
+    SetMargins<false>(*world_, remaining_j_, state_);
+  } else {
+    SetMargins<true>(*world_, remaining_j_, state_);
+  }
 }
 
 // If no slot is left, phi >= 0 means that the UAV is over the stop. Rounding Delta to float keeps its sign,
@@ -119,6 +159,9 @@ std::array<uint8_t, kMoves> UavEnvironment::SafeMoves() const {
   std::array<uint8_t, kMoves> safe{};
   for (size_t move = 0; move < static_cast<size_t>(Move::kHover); ++move) {
     const Cell next = {cell.column + kMoveSteps[move].column, cell.row + kMoveSteps[move].row};
+    if (world.map() != nullptr && !world.map()->MayFly(next)) {
+      continue;  // it has no distance
+    }
     safe[move] =
         static_cast<uint8_t>(world.OnGrid(next)) & (world.DistanceToStop(next) < distance ? closer : farther);
   }

@@ -54,13 +54,13 @@ class UavEnvironment : public Environment {
   /// The same with the world's options.
   void WriteMask(std::span<uint8_t> mask) const override { WriteMask(world_->mask_options(), mask); }
 
-  /// Whether the move stays on the grid and the stop can still be reached after it.
+  /// Whether the move stays on the grid and off cells that can't be flown over, and the stop can still be
+  /// reached after it.
   bool IsSafe(Move move) const { return SafeMoves()[static_cast<size_t>(move)] != 0; }
 
  private:
   std::array<uint8_t, kMoves> SafeMoves() const;
   void Collect(int schedule);
-  double SlotEnergy(Cell next) const;
   void UpdateMargins();
   Outcome PresentOutcome() const;
   double RewardOfState() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -75,8 +76,9 @@ WorldDescription DescribeFields(const Scenario& common, const FieldRanges& range
     description.state.push_back({fmt::format("sensor_{}_y_m", sensor), "m"});
     description.state.push_back({fmt::format("sensor_{}_weight", sensor), ""});
   }
-  description.sets = SetsOf(ranges.sensors.maximum);
-  description.observation_size = NetworkInput::Size(ranges.sensors.maximum, {.sets = true});
+  description.sets = SetsOf(ranges.sensors.maximum, common.map != nullptr);
+  description.observation_size =
+      NetworkInput::Size(ranges.sensors.maximum, {.sets = true}, common.map != nullptr);
   return description;
 }
 
@@ -139,13 +141,56 @@ UavFields::UavFields(Scenario common, FieldRanges ranges, UavOptions options)
       ranges_(ranges),
       options_{options.mask, {}} {
   CheckEveryStopIsReachable();
+  if (common_.map != nullptr) {
+    RandomSensors(common_, ranges_.sensors.maximum, 0);  // throws if there are too few cells
+    map_input_.emplace(*common_.map, common_.cell_m, ranges_.coverage_radius_m.maximum);
+  }
+}
+
+/// The cells from which starts and stops are drawn. There must be a map.
+const std::vector<Cell>& UavFields::CellsToDraw() const {
+  const std::vector<Cell>& zones = common_.map->zones();
+  return zones.empty() ? common_.map->CellsAround(common_.start) : zones;
+}
+
+/// The distances from a start to a stop that can be drawn, in ascending order.
+std::vector<int> UavFields::DistancesToStops(const UavWorld& largest) const {
+  std::vector<int> distances;
+  if (!ranges_.any_start && !ranges_.any_stop) {
+    distances = {largest.DistanceToStop(common_.start)};
+  } else if (common_.map == nullptr) {
+    distances.resize(static_cast<size_t>(common_.columns + common_.rows - 1));
+    std::iota(distances.begin(), distances.end(), 0);
+  } else {
+    const std::vector<Cell> starts = ranges_.any_start ? CellsToDraw() : std::vector<Cell>{common_.start};
+    const std::vector<Cell> stops = ranges_.any_stop ? CellsToDraw() : std::vector<Cell>{common_.stop};
+    std::vector<uint8_t> found(ObstacleMap::kCutOff + 1);
+    for (const Cell start : starts) {
+      for (const Cell stop : stops) {
+        const int distance = common_.map->Distance(start, stop);
+        if (distance == ObstacleMap::kCutOff) {
+          throw UsageError(
+              fmt::format("scenario.random_field: a start in column {}, row {} and a stop in column {}, row "
+                          "{} are cut off from "
+                          "each other by the obstacles of scenario.map_row; allowed: only starts and stops "
+                          "between which the "
+                          "UAV can fly",
+                          start.column, start.row, stop.column, stop.row));
+        }
+        if (std::exchange(found[static_cast<size_t>(distance)], uint8_t{1}) == 0) {
+          distances.push_back(distance);
+        }
+      }
+    }
+    std::sort(distances.begin(), distances.end());
+  }
+  return distances;
 }
 
 void UavFields::CheckEveryStopIsReachable() const {
-  Scenario scenario = Largest(common_, ranges_);
-  const UavWorld largest(scenario, options_);
-  const bool anywhere = ranges_.any_start || ranges_.any_stop;
-  const int farthest = anywhere ? common_.columns + common_.rows - 2 : largest.DistanceToStop(common_.start);
+  const UavWorld largest(Largest(common_, ranges_), options_);
+  const std::vector<int> distances = DistancesToStops(largest);
+  const int farthest = distances.back();
   for (int slots = ranges_.slots.minimum; slots <= ranges_.slots.maximum; ++slots) {
     if (farthest > slots - 1) {
       throw UsageError(
@@ -153,7 +198,7 @@ void UavFields::CheckEveryStopIsReachable() const {
                       "start; allowed: at least {}",
                       slots, farthest, farthest + 1));
     }
-    for (int distance = anywhere ? 0 : farthest; distance <= farthest; ++distance) {
+    for (const int distance : distances) {
       const double needed_j = CompletionEnergy(largest, distance, slots - 1);
       if (needed_j > common_.initial_energy_j) {
         throw UsageError(
@@ -170,15 +215,27 @@ std::unique_ptr<Environment> UavFields::NewEnvironment() const {
   return std::make_unique<UavFieldsEnvironment>(*this);
 }
 
+/// Draws a start or a stop if any is allowed; otherwise returns the given one.
+Cell UavFields::DrawStart(bool any, Cell given, RandomStream& stream) const {
+  if (!any) {
+    return given;
+  }
+  if (common_.map == nullptr) {
+    return DrawCell(common_, stream);
+  }
+  const std::vector<Cell>& cells = CellsToDraw();
+  return cells[stream.NextBelow(static_cast<uint32_t>(cells.size()))];
+}
+
 Scenario UavFields::Draw(uint64_t seed) const {
   RandomStream stream(seed, RandomPurpose::kEpisodeStart, 0, 0);
   Scenario field = common_;
   const int sensors = DrawInteger(ranges_.sensors, stream);
   field.coverage_radius_m = DrawNumber(ranges_.coverage_radius_m, stream);
   field.slots = DrawInteger(ranges_.slots, stream);
-  field.start = ranges_.any_start ? DrawCell(common_, stream) : common_.start;
-  field.stop = ranges_.any_stop ? DrawCell(common_, stream) : common_.stop;
-  field.sensors = RandomSensors(common_.columns, common_.rows, common_.cell_m, sensors, seed);
+  field.start = DrawStart(ranges_.any_start, common_.start, stream);
+  field.stop = DrawStart(ranges_.any_stop, common_.stop, stream);
+  field.sensors = RandomSensors(field, sensors, seed);
   for (Sensor& sensor : field.sensors) {
     sensor = {AsInAState(sensor.x_m), AsInAState(sensor.y_m), DrawNumber(ranges_.weight, stream)};
   }
@@ -230,7 +287,7 @@ void UavFields::Observe(std::span<const float> state, std::span<float> observati
   const Cell stop = {static_cast<int>(state[at.stop()]), static_cast<int>(state[at.stop() + 1])};
   WriteSets({common_.columns, common_.rows, common_.cell_m, common_.initial_energy_j,
              static_cast<int>(state[at.slots()]), state[at.coverage_radius_m()], stop,
-             std::span(sensors).first(count)},
+             std::span(sensors).first(count), common_.map.get(), map_input_ ? &*map_input_ : nullptr},
             state, observation);
 }
 
@@ -353,6 +410,10 @@ void UavFields::CheckServesField(const UavWorld& field) const {
   check_same("scenario.grid.columns", scenario.columns, common_.columns);
   check_same("scenario.grid.rows", scenario.rows, common_.rows);
   check_same("scenario.grid.cell_m", scenario.cell_m, common_.cell_m);
+  const auto map_text = [](const Scenario& of) {
+    return of.map == nullptr ? std::vector<std::string>() : of.map->Text();
+  };
+  check(map_text(scenario) == map_text(common_), "scenario.map", "of other cells", "one map");
   check_same("scenario.initial_energy_j", scenario.initial_energy_j, own.scenario().initial_energy_j);
   check_same("the energy of a flown slot (scenario.rotor), in joules,", field.flying_energy_j(),
              own.flying_energy_j());
@@ -377,8 +438,18 @@ std::string UavFields::GroupOf(const Episode& episode) const {
   return fmt::format("{} sensor{}", sensors, sensors == 1 ? "" : "s");
 }
 
+int64_t UavFields::bytes() const {
+  return map_input_ ? common_.map->bytes() + map_input_->bytes() : 0;
+}
+
 int UavFields::DrawPlace(RandomStream& stream) const {
-  const Cell cell = DrawCell(common_, stream);
+  Cell cell;
+  if (common_.map == nullptr) {
+    cell = DrawCell(common_, stream);
+  } else {
+    const std::vector<Cell>& cells = common_.map->CellsAround(common_.start);
+    cell = cells[stream.NextBelow(static_cast<uint32_t>(cells.size()))];
+  }
   return cell.row * common_.columns + cell.column;
 }
 
@@ -389,7 +460,7 @@ bool UavFields::IsAt(std::span<const float> state, int place) const {
 
 ActionRange UavFields::Towards(std::span<const float> state, int place) const {
   const Cell goal = {place % common_.columns, place / common_.columns};
-  const int first = static_cast<int>(MoveTowards(CellIn(state), goal)) * schedules();
+  const int first = static_cast<int>(MoveTowards(common_.map.get(), CellIn(state), goal)) * schedules();
   return {first, first + schedules()};
 }
 

@@ -5,8 +5,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "worlds/uav/map_input.h"
 #include "worlds/uav/uav_world.h"
 
 namespace fresco {
@@ -20,11 +23,13 @@ struct Interval {
 
 /// What differs from field to field.
 struct FieldRanges {
-  Interval<int> sensors;               ///< N; they are anywhere over the grid (RandomSensors)
+  Interval<int> sensors;               ///< N; they are anywhere (RandomSensors)
   Interval<double> weight;             ///< of each sensor
   Interval<double> coverage_radius_m;  ///< R
   Interval<int> slots;                 ///< T
-  bool any_start = false;              ///< every cell is as likely; otherwise always the scenario's
+  /// Every cell is as likely (with a map: of its cells of kind kStartAndLanding, or, if it has none, of those
+  /// that flights from the scenario's start lead to); otherwise always the scenario's.
+  bool any_start = false;
   bool any_stop = false;
 };
 
@@ -53,7 +58,8 @@ class UavFields : public World {
   void Judge(const Episode& episode, std::span<double> figures) const override;
   bool Succeeded(const Episode& episode) const override;
   EpisodeAccount Tell(const Episode& flight) const override;
-  int64_t bytes() const override { return 0; }
+  /// The map and what the network sees of it.
+  int64_t bytes() const override;
   /// Those of the episode's field.
   std::vector<ReferencePolicy> reference_policies() const override;
   Episode FlyReference(const std::string& name, uint64_t seed) const override;
@@ -90,10 +96,14 @@ class UavFields : public World {
  private:
   void CheckEveryStopIsReachable() const;
   void CheckServesField(const UavWorld& field) const;
+  std::vector<int> DistancesToStops(const UavWorld& largest) const;
+  const std::vector<Cell>& CellsToDraw() const;
+  Cell DrawStart(bool any, Cell given, RandomStream& stream) const;
 
   Scenario common_;
   FieldRanges ranges_;
   UavOptions options_;
+  std::optional<MapInput> map_input_;  // if there is a map
 };
 
 /// The world as UavFields; null if it is another kind of world.

@@ -79,9 +79,52 @@ void CheckSpeed(const Scenario& scenario) {
   }
 }
 
+void CheckMayFly(const std::string& path, Cell cell, const ObstacleMap& map) {
+  if (!map.MayFly(cell)) {
+    throw UsageError(
+        fmt::format("{}: column {}, row {} is a cell of scenario.map_row ('{}') that can't be flown over; "
+                    "allowed: '{}', '{}' "
+                    "or '{}'",
+                    path, cell.column, cell.row, static_cast<char>(map.KindOf(cell)),
+                    static_cast<char>(CellKind::kStartAndLanding), static_cast<char>(CellKind::kFree),
+                    static_cast<char>(CellKind::kBlocksRadio)));
+  }
+}
+
+// Half a cell beyond the centres of the outermost cells belongs to the map.
+void CheckIsOnMap(const Sensor& sensor, size_t number, const Scenario& scenario) {
+  const std::string path = fmt::format("scenario.sensor[{}]", number);
+  RequireWithin(path + ".x_m (with scenario.map_row)", sensor.x_m, -0.5 * scenario.cell_m,
+                (scenario.columns - 0.5) * scenario.cell_m);
+  RequireWithin(path + ".y_m (with scenario.map_row)", sensor.y_m, -0.5 * scenario.cell_m,
+                (scenario.rows - 0.5) * scenario.cell_m);
+}
+
+void CheckMap(const Scenario& scenario) {
+  const ObstacleMap& map = *scenario.map;
+  if (map.columns() != scenario.columns || map.rows() != scenario.rows) {
+    throw UsageError(
+        fmt::format("scenario.grid: {} columns and {} rows contradict scenario.map_row, which has {} and {}; "
+                    "allowed: omitted, or "
+                    "those of the map",
+                    scenario.columns, scenario.rows, map.columns(), map.rows()));
+  }
+  CheckMayFly("scenario.start", scenario.start, map);
+  CheckMayFly("scenario.stop", scenario.stop, map);
+  if (map.Distance(scenario.start, scenario.stop) == ObstacleMap::kCutOff) {
+    throw UsageError(
+        fmt::format("scenario.stop: column {}, row {} is cut off from scenario.start (column {}, row {}) by "
+                    "the obstacles of "
+                    "scenario.map_row; allowed: one of the {} cells that flights from the start lead to",
+                    scenario.stop.column, scenario.stop.row, scenario.start.column, scenario.start.row,
+                    map.CellsAround(scenario.start).size()));
+  }
+}
+
 void CheckStopIsReachableInTime(const Scenario& scenario) {
-  const int distance = std::abs(scenario.start.column - scenario.stop.column) +
-                       std::abs(scenario.start.row - scenario.stop.row);
+  const int distance = scenario.map != nullptr ? scenario.map->Distance(scenario.start, scenario.stop)
+                                               : std::abs(scenario.start.column - scenario.stop.column) +
+                                                     std::abs(scenario.start.row - scenario.stop.row);
   if (distance > scenario.slots - 1) {
     throw UsageError(fmt::format(
         "scenario.slots: {} is out of range: scenario.stop is {} moves from scenario.start and there is time "
@@ -91,10 +134,12 @@ void CheckStopIsReachableInTime(const Scenario& scenario) {
 }
 
 const Scenario& Checked(const Scenario& scenario) {
-  CheckCell("scenario.start", scenario.start, scenario);
-  CheckCell("scenario.stop", scenario.stop, scenario);
+  CheckPlaces(scenario);
   CheckSensors(scenario.sensors);
   CheckSize(scenario);
+  for (size_t i = 0; scenario.map != nullptr && i < scenario.sensors.size(); ++i) {
+    CheckIsOnMap(scenario.sensors[i], i, scenario);
+  }
   CheckRadio(scenario.radio, scenario.slot_s);
   CheckSpeed(scenario);
   CheckStopIsReachableInTime(scenario);
@@ -127,7 +172,8 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.name = "uav";
   description.state = StateFields(sensors);
   description.actions = ActionNames(sensors);
-  description.observation_size = NetworkInput::Size(static_cast<int>(sensors), options.network_input);
+  description.observation_size =
+      NetworkInput::Size(static_cast<int>(sensors), options.network_input, scenario.map != nullptr);
   description.longest_episode = scenario.slots - 1;
   description.random = false;
   description.chance = false;
@@ -136,7 +182,7 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.success = "arrived";
   description.copies = true;
   if (options.network_input.sets) {
-    description.sets = SetsOf(static_cast<int>(sensors));
+    description.sets = SetsOf(static_cast<int>(sensors), scenario.map != nullptr);
   }
   return description;
 }
@@ -163,8 +209,19 @@ const char* MoveName(Move move) {
   CheckFailed(__FILE_NAME__, __LINE__, "a move of 0 to 4");
 }
 
+void CheckPlaces(const Scenario& scenario) {
+  CheckCell("scenario.start", scenario.start, scenario);
+  CheckCell("scenario.stop", scenario.stop, scenario);
+  if (scenario.map != nullptr) {
+    CheckMap(scenario);
+  }
+}
+
 UavWorld::UavWorld(Scenario scenario, UavOptions options)
     : World(Describe(Checked(scenario), options)), scenario_(std::move(scenario)), options_(options) {
+  if (map() != nullptr) {
+    to_stop_ = map()->DistancesTo(scenario_.stop).data();
+  }
   for (int move = 0; move < kMoves; ++move) {
     for (int schedule = 0; schedule <= sensors(); ++schedule) {
       actions_.push_back({static_cast<Move>(move), schedule});
@@ -198,7 +255,10 @@ void UavWorld::DeriveEnergies() {
   const double quantum = std::ldexp(1.0, std::ilogb(largest_j) + 2 - kSignificandBits);
   flying_energy_j_ = RoundTo(flying_j, quantum);
   hovering_energy_j_ = RoundTo(hovering_j, quantum);
-  flies_spare_slots_ = flying_energy_j_ < hovering_energy_j_ && (scenario_.columns > 1 || scenario_.rows > 1);
+  const bool has_neighbour = std::any_of(kMoveSteps.begin(), kMoveSteps.end() - 1, [&](Cell step) {
+    return MayFly({scenario_.stop.column + step.column, scenario_.stop.row + step.row});
+  });
+  flies_spare_slots_ = flying_energy_j_ < hovering_energy_j_ && has_neighbour;
   scenario_.initial_energy_j = RoundTo(scenario_.initial_energy_j, quantum);
 }
 
@@ -216,9 +276,12 @@ void UavWorld::DeriveCoverage() {
   coverage_.reserve(static_cast<size_t>(scenario_.columns) * scenario_.rows * scenario_.sensors.size());
   for (int row = 0; row < scenario_.rows; ++row) {
     for (int column = 0; column < scenario_.columns; ++column) {
+      const Cell cell = {column, row};
       for (const Sensor& sensor : scenario_.sensors) {
-        coverage_.push_back(IsWithin(scenario_.coverage_radius_m,
-                                     HorizontalDistance({column, row}, scenario_.cell_m, sensor)));
+        coverage_.push_back(
+            IsWithin(scenario_.coverage_radius_m, HorizontalDistance(cell, scenario_.cell_m, sensor)) &&
+            (map() == nullptr ||
+             (map()->MayFly(cell) && map()->HasLineOfSight(cell, sensor, scenario_.cell_m))));
       }
     }
   }
@@ -228,7 +291,8 @@ int64_t UavWorld::bytes() const {
   const auto size = [](const auto& vector) {
     return static_cast<int64_t>(vector.size() * sizeof(vector[0]));
   };
-  return size(scenario_.sensors) + size(theta_) + size(coverage_) + network_input_->bytes();
+  return size(scenario_.sensors) + size(theta_) + size(coverage_) + network_input_->bytes() +
+         (map() != nullptr ? map()->bytes() : 0);
 }
 
 std::unique_ptr<Environment> UavWorld::NewEnvironment() const {
@@ -286,6 +350,10 @@ Episode UavWorld::FlyReference(const std::string& name, uint64_t /*seed*/) const
 }
 
 int UavWorld::DrawPlace(RandomStream& stream) const {
+  if (map() != nullptr) {
+    const std::vector<Cell>& cells = map()->CellsAround(scenario_.start);
+    return CellIndex(cells[stream.NextBelow(static_cast<uint32_t>(cells.size()))]);
+  }
   const auto column = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario_.columns)));
   const auto row = static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario_.rows)));
   return CellIndex({column, row});
@@ -297,7 +365,7 @@ bool UavWorld::IsAt(std::span<const float> state, int place) const {
 
 ActionRange UavWorld::Towards(std::span<const float> state, int place) const {
   const Cell goal = {place % scenario_.columns, place / scenario_.columns};
-  const int first = ActionIndex({MoveTowards(CellIn(state), goal), 0});
+  const int first = ActionIndex({MoveTowards(map(), CellIn(state), goal), 0});
   return {first, first + sensors() + 1};
 }
 
@@ -324,6 +392,25 @@ Move MoveTowards(Cell from, Cell to) {
     return columns > 0 ? Move::kEast : Move::kWest;
   }
   return rows > 0 ? Move::kNorth : Move::kSouth;
+}
+
+Move MoveTowards(const ObstacleMap* map, Cell from, Cell to) {
+  const Move open = MoveTowards(from, to);
+  if (map == nullptr || open == Move::kHover) {
+    return open;
+  }
+  const int distance = map->Distance(to, from);
+  if (distance == ObstacleMap::kCutOff) {
+    return Move::kHover;
+  }
+  for (const Move move : {open, Move::kNorth, Move::kSouth, Move::kEast, Move::kWest}) {
+    const Cell step = kMoveSteps[static_cast<size_t>(move)];
+    const Cell next = {from.column + step.column, from.row + step.row};
+    if (map->MayFly(next) && map->Distance(to, next) < distance) {
+      return move;
+    }
+  }
+  return Move::kHover;
 }
 
 }  // namespace fresco

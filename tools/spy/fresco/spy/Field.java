@@ -7,7 +7,7 @@ import java.util.List;
  * of cell (0, 0). Immutable.
  */
 record Field(int columns, int rows, double cellM, Cell start, Cell stop, int slots, double coverageRadiusM,
-    double initialEnergyJ, List<Sensor> sensors) {
+    double initialEnergyJ, List<Sensor> sensors, Obstacles obstacles) {
   record Cell(int column, int row) {}
 
   record Sensor(double xM, double yM, double weight) {}
@@ -25,6 +25,7 @@ record Field(int columns, int rows, double cellM, Cell start, Cell stop, int slo
   /** Whether a UAV over the cell can collect from the sensor (0-based). */
   boolean covers(int column, int row, int sensor) {
     Sensor at = sensors.get(sensor);
-    return Math.hypot(column * cellM - at.xM, row * cellM - at.yM) <= coverageRadiusM;
+    return Math.hypot(column * cellM - at.xM, row * cellM - at.yM) <= coverageRadiusM
+        && obstacles.haveLineOfSight(column, row, at, cellM);
   }
 }

@@ -7,7 +7,7 @@ import java.awt.geom.Line2D;
 import java.awt.geom.Point2D;
 import java.awt.geom.Rectangle2D;
 
-/** Paints the fixed parts of a field: the grid with its axes, start and stop. */
+/** Paints the fixed parts of a field: the grid with its axes, obstacles, start and stop. */
 final class FieldPainter {
   private static final int MOST_LINES = 25;
   private static final int MOST_TICKS = 6;
@@ -35,6 +35,7 @@ final class FieldPainter {
     Rectangle2D area = view.area();
     g.setColor(Palette.SURFACE);
     g.fill(area);
+    paintObstacles(g);
     g.setColor(Palette.LINE);
     g.setStroke(Palette.stroke(0.6));
     int step = (int) Math.max(1, niceStep(Math.max(field.columns(), field.rows()), MOST_LINES));
@@ -49,6 +50,16 @@ final class FieldPainter {
     g.setColor(Palette.MUTED);
     g.setStroke(Palette.stroke(1));
     g.draw(area);
+  }
+
+  private void paintObstacles(Graphics2D g) {
+    Obstacles obstacles = field.obstacles();
+    double pixels = view.cellPixels();
+    for (int cell = 0; cell < obstacles.kinds().length; ++cell) {
+      Point2D.Double place = view.place(cell % field.columns(), cell / field.columns());
+      g.setColor(Palette.ofCell(obstacles.kindOf(cell)));
+      g.fill(new Rectangle2D.Double(place.x - pixels / 2, place.y - pixels / 2, pixels, pixels));
+    }
   }
 
   void paintAxes(Graphics2D g) {

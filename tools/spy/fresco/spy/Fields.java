@@ -14,8 +14,20 @@ final class Fields {
 
   private static final class Parts {
     final Field.Sensor[] sensors;
+    final byte[] cells; // 0: not known yet
 
-    Parts(int sensors) { this.sensors = new Field.Sensor[sensors]; }
+    Parts(int sensors, int cells) {
+      this.sensors = new Field.Sensor[sensors];
+      this.cells = new byte[cells];
+    }
+
+    boolean areComplete() {
+      boolean complete = !Arrays.asList(sensors).contains(null);
+      for (int i = 0; complete && i < cells.length; ++i) {
+        complete = cells[i] != 0;
+      }
+      return complete;
+    }
   }
 
   private final Map<Long, Parts> parts = new RecentMap<>(REMEMBERED_RUNS);
@@ -29,15 +41,17 @@ final class Fields {
       return;
     }
     Parts known = parts.get(message.run_id);
-    if (known == null || known.sensors.length != message.total_sensors) {
-      known = new Parts(message.total_sensors);
+    if (known == null || known.sensors.length != message.total_sensors
+        || known.cells.length != message.total_cells) {
+      known = new Parts(message.total_sensors, message.total_cells);
       parts.put(message.run_id, known);
     }
     for (int i = 0; i < message.sensor_count; ++i) {
       known.sensors[message.first_sensor + i] =
           new Field.Sensor(message.x_m[i], message.y_m[i], message.weight[i]);
     }
-    if (!Arrays.asList(known.sensors).contains(null)) {
+    System.arraycopy(message.cell_kind, 0, known.cells, message.first_cell, message.cell_count);
+    if (known.areComplete()) {
       fields.put(message.run_id, fieldOf(message, known));
     }
   }
@@ -46,7 +60,8 @@ final class Fields {
     return new Field(message.columns, message.rows, message.cell_m,
         new Field.Cell(message.start_column, message.start_row),
         new Field.Cell(message.stop_column, message.stop_row), message.slots, message.coverage_radius_m,
-        message.initial_energy_j, Arrays.asList(known.sensors.clone()));
+        message.initial_energy_j, Arrays.asList(known.sensors.clone()),
+        known.cells.length == 0 ? Obstacles.NONE : new Obstacles(message.columns, known.cells.clone()));
   }
 
   private static boolean isSound(scenario_t message) {
@@ -58,7 +73,8 @@ final class Fields {
         && isWithin(message.stop_row, 0, message.rows - 1)
         && isWithin(message.slots, 1, MAXIMUM_SLOTS)
         && isWithin(message.coverage_radius_m, 0, LARGEST)
-        && isWithin(message.initial_energy_j, 0, Double.MAX_VALUE) && sensorsAreSound(message);
+        && isWithin(message.initial_energy_j, 0, Double.MAX_VALUE) && sensorsAreSound(message)
+        && cellsAreSound(message);
   }
 
   private static boolean sensorsAreSound(scenario_t message) {
@@ -67,6 +83,15 @@ final class Fields {
     for (int i = 0; sound && i < message.sensor_count; ++i) {
       sound = isWithin(message.x_m[i], -LARGEST, LARGEST) && isWithin(message.y_m[i], -LARGEST, LARGEST)
           && isWithin(message.weight[i], 0, LARGEST);
+    }
+    return sound;
+  }
+
+  private static boolean cellsAreSound(scenario_t message) {
+    boolean sound = (message.total_cells == 0 || message.total_cells == message.columns * message.rows)
+        && isWithin(message.first_cell, 0, message.total_cells - message.cell_count);
+    for (int i = 0; sound && i < message.cell_count; ++i) {
+      sound = Obstacles.isKind(message.cell_kind[i]);
     }
     return sound;
   }

@@ -38,6 +38,17 @@ final class Palette {
         (int) Math.round(from.getBlue() + (to.getBlue() - from.getBlue()) * share));
   }
 
+  /** Returns the colour of a map's cell. Those of the report page are the same. */
+  static Color ofCell(char kind) {
+    return switch (kind) {
+      case 'N' -> new Color(0xf2c4bd); // no flying
+      case 'R' -> new Color(0xc4e3c0); // blocks radio
+      case 'B' -> new Color(0xdfcb73); // both
+      case 'S' -> new Color(0xc5d9f3); // start and landing
+      default -> SURFACE;
+    };
+  }
+
   static Color series(int index) { return new Color(SERIES[Math.floorMod(index, SERIES.length)]); }
 
   /** Returns the stroke of a curve: dashed if all colours of `series` are taken already. */

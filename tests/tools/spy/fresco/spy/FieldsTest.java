@@ -15,11 +15,11 @@ public class FieldsTest {
 
   @Test
   public void knowAFieldOnceEverySensorWasHeardOf() {
-    fields.add(Messages.scenario(1, 48, 2, 50));
+    fields.add(Messages.scenario(1, 24, 2, 26));
     assertNull(fields.of(1));
-    fields.add(Messages.scenario(1, 0, 48, 50));
-    assertEquals(50, fields.of(1).sensors().size());
-    assertEquals(50, fields.of(1).sensors().get(49).weight(), 0);
+    fields.add(Messages.scenario(1, 0, 24, 26));
+    assertEquals(26, fields.of(1).sensors().size());
+    assertEquals(26, fields.of(1).sensors().get(25).weight(), 0);
     assertNull(fields.of(2));
   }
 
@@ -62,6 +62,58 @@ public class FieldsTest {
       fields.add(message);
       assertNull(fields.of(3));
     }
+  }
+
+  @Test
+  public void knowAMapOnceEveryCellWasHeardOf() {
+    String south = ".".repeat(200);
+    String north = "N".repeat(100) + "R".repeat(50) + "B".repeat(49) + "S";
+    fields.add(Messages.withCells(Messages.scenario(4, 0, 3, 3), 200, north, 400));
+    assertNull(fields.of(4));
+    fields.add(Messages.withCells(Messages.scenario(4, 3, 0, 3), 0, south, 400));
+    assertEquals(400, fields.of(4).obstacles().kinds().length);
+    assertEquals('.', fields.of(4).obstacles().kindOf(199));
+    assertEquals('N', fields.of(4).obstacles().kindOf(200));
+    assertEquals('S', fields.of(4).obstacles().kindOf(399));
+  }
+
+  @Test
+  public void leaveOutWhatNoMapCanBe() {
+    String cells = "R".repeat(400);
+    List<Consumer<scenario_t>> faults = List.of(message
+        -> message.total_cells = 399,
+        message
+        -> message.first_cell = 1,
+        message
+        -> message.first_cell = -1,
+        message -> message.cell_kind[7] = 'x', message -> message.cell_kind[7] = 0);
+    for (Consumer<scenario_t> fault : faults) {
+      scenario_t message = Messages.withCells(Messages.scenario(5, 0, 3, 3), 0, cells, 400);
+      fault.accept(message);
+      fields.add(message);
+      assertNull(fields.of(5));
+    }
+  }
+
+  // A wall of two cells in the middle of a street, from west to east.
+  @Test
+  public void hideSensorsBehindWhatBlocksRadio() {
+    byte[] kinds = ".....".repeat(5).getBytes(java.nio.charset.StandardCharsets.US_ASCII);
+    kinds[2 * 5 + 1] = 'B';
+    kinds[2 * 5 + 2] = 'R';
+    Field.Sensor north = new Field.Sensor(50, 100, 1); // column 2, row 4
+    Field.Sensor within = new Field.Sensor(50, 50, 1); // on the wall
+    Obstacles wall = new Obstacles(5, kinds);
+    Field field = new Field(5, 5, 25, new Field.Cell(0, 0), new Field.Cell(0, 0), 70, 1000, 1,
+        List.of(north, within), wall);
+    assertEquals(false, field.covers(2, 0, 0));
+    assertEquals(false, field.covers(1, 0, 0)); // through both
+    assertEquals(true, field.covers(3, 1, 0)); // past the corner
+    assertEquals(true, field.covers(4, 2, 0));
+    assertEquals(false, field.covers(2, 2, 0)); // over the wall
+    assertEquals(true, field.covers(2, 2, 1));
+    assertEquals(true, field.covers(2, 0, 1));
+    assertEquals(false, field.covers(0, 2, 1)); // along the wall
   }
 
   @Test

@@ -64,9 +64,19 @@ final class Messages {
     message.x_m = new double[count];
     message.y_m = new double[count];
     message.weight = new double[count];
+    message.cell_kind = new byte[0];
     for (int i = 0; i < count; ++i) {
       message.weight[i] = first + i + 1;
     }
+    return message;
+  }
+
+  /** Adds cells of a map of `total` cells to a message: these kinds, from `first` on. */
+  static scenario_t withCells(scenario_t message, int first, String kinds, int total) {
+    message.first_cell = first;
+    message.cell_count = kinds.length();
+    message.total_cells = total;
+    message.cell_kind = kinds.getBytes(java.nio.charset.StandardCharsets.US_ASCII);
     return message;
   }
 

@@ -1,0 +1,99 @@
+#include "worlds/uav/map_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "worlds/uav/uav_world.h"
+
+namespace fresco {
+namespace {
+
+constexpr size_t kMaximumPairs = 8'000'000;  // 48 MB
+
+/// The square of a radius, in cells, with the tolerance of IsWithin.
+double SquareInCells(double radius_m, double cell_m) {
+  constexpr double kLeeway = 1 + 1e-9;
+  const double cells = radius_m / cell_m * kLeeway;
+  return cells * cells;
+}
+
+}  // namespace
+
+MapInput::MapInput(const ObstacleMap& map, double cell_m, double largest_radius_m)
+    : map_(&map), cell_m_(cell_m), first_({0}) {
+  const double largest_square = SquareInCells(largest_radius_m, cell_m);
+  std::vector<std::pair<int32_t, int16_t>> heard;  // square, cell
+  for (int index = 0; index < map.columns() * map.rows(); ++index) {
+    const Cell place = {index % map.columns(), index / map.columns()};
+    const Sensor sensor = {place.column * cell_m, place.row * cell_m, 1};
+    heard.clear();
+    for (int row = 0; row < map.rows(); ++row) {
+      for (int column = 0; column < map.columns(); ++column) {
+        const Cell cell = {column, row};
+        const int square =
+            (column - place.column) * (column - place.column) + (row - place.row) * (row - place.row);
+        if (square <= largest_square && map.MayFly(cell) && map.HasLineOfSight(cell, sensor, cell_m)) {
+          heard.emplace_back(square, static_cast<int16_t>(IndexOf(cell)));
+        }
+      }
+    }
+    if (seen_from_.size() + heard.size() > kMaximumPairs) {
+      throw UsageError(
+          fmt::format("scenario.map_row: with a coverage radius of {} m and this scenario.map_row, more than "
+                      "{} pairs of cells "
+                      "hear each other; allowed: a smaller radius or map",
+                      largest_radius_m, kMaximumPairs));
+    }
+    std::sort(heard.begin(), heard.end());
+    for (const auto& [square, cell] : heard) {
+      seen_from_.push_back(cell);
+      squares_.push_back(square);
+    }
+    first_.push_back(static_cast<uint32_t>(seen_from_.size()));
+  }
+}
+
+MapInput::Rows MapInput::RowsAround(Cell cell) const {
+  Rows rows;
+  rows[0] = map_->DistancesTo(cell).data();
+  for (size_t move = 0; move + 1 < kInputs; ++move) {
+    const Cell next = {cell.column + kMoveSteps[move].column, cell.row + kMoveSteps[move].row};
+    rows[move + 1] = map_->MayFly(next) ? map_->DistancesTo(next).data() : rows[0];
+  }
+  return rows;
+}
+
+void MapInput::Write(std::array<int16_t, kInputs> distances, std::span<float> input) const {
+  const int side = std::max(map_->columns(), map_->rows());
+  input[0] = static_cast<float>(std::min<int>(distances[0], 2 * side)) / static_cast<float>(side);
+  for (size_t i = 1; i < kInputs; ++i) {
+    input[i] = static_cast<float>(distances[0] - distances[i]);
+  }
+}
+
+void MapInput::WriteWayToStop(Cell cell, Cell stop, std::span<float> input) const {
+  const auto to = static_cast<size_t>(IndexOf(stop));
+  const Rows rows = RowsAround(cell);
+  Write({rows[0][to], rows[1][to], rows[2][to], rows[3][to], rows[4][to]}, input);
+}
+
+void MapInput::WriteWayToSensor(Cell cell, const Sensor& sensor, double radius_m,
+                                std::span<float> input) const {
+  const double largest_square = SquareInCells(radius_m, cell_m_);
+  const auto place = static_cast<size_t>(IndexOf(CellOf(sensor, cell_m_, map_->columns(), map_->rows())));
+  const Rows rows = RowsAround(cell);
+  std::array<int16_t, kInputs> least;
+  least.fill(ObstacleMap::kCutOff);
+  for (uint32_t i = first_[place]; i < first_[place + 1] && squares_[i] <= largest_square; ++i) {
+    const auto to = static_cast<size_t>(seen_from_[i]);
+    for (size_t row = 0; row < kInputs; ++row) {
+      least[row] = std::min(least[row], rows[row][to]);
+    }
+  }
+  Write(least, input);
+}
+
+}  // namespace fresco
