@@ -101,8 +101,9 @@ OrderedJson JudgementOf(const SummaryInputs& inputs) {
   std::span<const std::shared_ptr<const Plan>> plans = inputs.optimum.plans;
   if (!world.description().random) {
     seeds = {0};
-  } else if (!plans.empty()) {
-    plans = plans.subspan(delivered ? seeds.size() : 0, seeds.size());
+  } else {  // those of EpisodesToPlan: first of the fixed evaluations, then of the delivery
+    plans = plans.size() == 2 * seeds.size() ? plans.subspan(delivered ? seeds.size() : 0, seeds.size())
+                                             : plans.first(0);
   }
   return OrderedJson::parse(JudgementJson({world, seeds, JudgedBy(inputs.trainer), plans}));
 }

@@ -143,7 +143,7 @@ TEST(Planner, FindsTheOptimumOfExhaustiveSearchAmongObstacles) {
     SCOPED_TRACE(index);
     const Scenario scenario = TinyMapScenario(index);
     const UavWorld world(scenario);
-    const Plan plan = PlanOptimally(world);
+    const Plan plan = PlanOptimally(world, 0);
     const AoiFigures figures = Figures(world, plan.flight);
     ASSERT_TRUE(plan.optimal);
     ASSERT_NEAR(figures.average_aoi, ExhaustiveSearch(scenario).LeastAverageAoi(), 1e-9);

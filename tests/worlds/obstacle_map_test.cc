@@ -420,8 +420,8 @@ TEST(NetworkInputWithAMap, HasTheWaysBehindTheInputsOfAnOpenGrid) {
   const UavWorld world(scenario, {{}, {.sensor_geometry = false, .sets = true}});
   scenario.map = nullptr;
   const UavWorld open(scenario, {{}, {.sensor_geometry = false, .sets = true}});
-  EXPECT_EQ(open.observation_size(), 6 + 2 * 7);
-  EXPECT_EQ(world.observation_size(), 11 + 2 * 12);
+  EXPECT_EQ(open.observation_size(), 7 + 2 * 7);
+  EXPECT_EQ(world.observation_size(), 12 + 2 * 12);
   const std::vector<float> state = {3, 2, 8, 500, 7, 9};
   std::vector<float> input(static_cast<size_t>(world.observation_size()));
   std::vector<float> open_input(static_cast<size_t>(open.observation_size()));
@@ -432,11 +432,11 @@ TEST(NetworkInputWithAMap, HasTheWaysBehindTheInputsOfAnOpenGrid) {
     EXPECT_EQ(std::vector<float>(begin, begin + 5), WayTo(world.scenario(), {3, 2}, to));
     input.erase(begin, begin + 5);
   };
-  expect_way(30, CellsThatCover(world, 1));
-  expect_way(18, CellsThatCover(world, 0));
-  expect_way(6, {{5, 5}});
-  EXPECT_EQ(input[10], 0);       // the first sensor is hidden,
-  EXPECT_EQ(open_input[10], 0);  // and too far away
+  expect_way(31, CellsThatCover(world, 1));
+  expect_way(19, CellsThatCover(world, 0));
+  expect_way(7, {{5, 5}});
+  EXPECT_EQ(input[11], 0);       // the first sensor is hidden,
+  EXPECT_EQ(open_input[11], 0);  // and too far away
   EXPECT_EQ(input, open_input);
 }
 
