@@ -37,8 +37,8 @@ class Installation(FrescoTest):
     def test_has_the_programs_and_the_ready_experiments(self):
         self.assertEqual(sorted(path.name for path in (self.prefix / "bin").iterdir()), PROGRAMS)
         configs = self.prefix / "share" / "fresco" / "configs"
-        self.assertEqual({path.name: path.read_text() for path in configs.iterdir()},
-                         {path.name: path.read_text() for path in (ROOT / "configs").iterdir()})
+        self.assertEqual({path.name: path.read_bytes() for path in configs.iterdir()},
+                         {path.name: path.read_bytes() for path in (ROOT / "configs").iterdir()})
         for jar in (BUILD / "share" / "fresco").glob("*.jar"):
             self.assertEqual((self.prefix / "share" / "fresco" / jar.name).read_bytes(), jar.read_bytes())
 
