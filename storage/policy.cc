@@ -165,6 +165,10 @@ ChosenPolicy ReadChoice(const PolicyChoice& choice) {
     Experiment given = GivenExperiment(choice);
     built_in = BuiltInPolicies(given.world());
     if (std::find(built_in.begin(), built_in.end(), choice.policy) != built_in.end()) {
+      if (choice.search_width > 0) {
+        throw UsageError(fmt::format(
+            "--search: expected a trained policy, whose values guide the search; found {}", choice.policy));
+      }
       return {std::move(given), std::nullopt};
     }
   }

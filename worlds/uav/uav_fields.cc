@@ -395,7 +395,8 @@ void UavFields::CheckServesField(const UavWorld& field) const {
   };
   const auto check_range = [&](const char* what, auto value, auto range) {
     check(value >= range.minimum && value <= range.maximum, what, value,
-          fmt::format("{} to {}", range.minimum, range.maximum));
+          range.minimum == range.maximum ? fmt::format("{}", range.minimum)
+                                         : fmt::format("{} to {}", range.minimum, range.maximum));
   };
   const auto check_same = [&](const char* what, auto value, auto trained) {
     check(value == trained, what, value, trained);
