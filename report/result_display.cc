@@ -214,26 +214,33 @@ std::vector<TableRow> PolicyRows(const std::string& summary_json, const std::str
   return rows;
 }
 
-std::vector<TableRow> GapRows(const std::string& summary_json) {
+std::vector<JudgedEpisode> ProvedEpisodes(const std::string& summary_json) {
   const Json summary = Json::parse(summary_json);
   const std::string score = summary.at("world").at("figures").front().at("name");
-  std::map<std::pair<size_t, std::string>, GroupGaps>
-      groups;  // shorter names first, so "2 ..." before "10 ..."
-  GroupGaps all;
+  std::vector<JudgedEpisode> proved;
   for (const Json& episode : summary.value("judged_episodes", Json::array())) {
     if (episode.at("gap_percent").is_null()) {
       continue;
     }
-    const std::string group = episode.value("group", "");
-    const double optimal = episode.at("optimal_" + score);
     double baseline = std::numeric_limits<double>::infinity();
     for (const Json& reached : episode.value("baselines", Json::object())) {
       baseline = std::min(baseline, reached.get<double>());
     }
-    for (GroupGaps* gaps : {&groups[{group.size(), group}], &all}) {
-      gaps->scores.push_back(episode.at(score));
-      gaps->baselines.push_back(baseline);
-      gaps->optima.push_back(optimal);
+    proved.push_back(
+        {episode.value("group", ""), episode.at(score), episode.at("optimal_" + score), baseline});
+  }
+  return proved;
+}
+
+std::vector<TableRow> GapRows(const std::string& summary_json) {
+  std::map<std::pair<size_t, std::string>, GroupGaps>
+      groups;  // shorter names first, so "2 ..." before "10 ..."
+  GroupGaps all;
+  for (const JudgedEpisode& episode : ProvedEpisodes(summary_json)) {
+    for (GroupGaps* gaps : {&groups[{episode.group.size(), episode.group}], &all}) {
+      gaps->scores.push_back(episode.score);
+      gaps->baselines.push_back(episode.better_baseline);
+      gaps->optima.push_back(episode.optimal_score);
     }
   }
   if (all.scores.empty()) {

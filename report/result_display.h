@@ -25,6 +25,16 @@ std::string ProgressLine(const learner_status_t& status, const WorldDescription&
 std::vector<std::vector<std::string>> PolicyRows(const std::string& summary_json,
                                                  const std::string& title = "this run (DQN)");
 
+/// A judged episode of a summary (JudgementJson in storage/judgement.h).
+struct JudgedEpisode {
+  std::string group;
+  double score = 0;
+  double optimal_score = 0;
+  double better_baseline = 0;  ///< the better score of the baselines; infinite if there are none
+};
+/// The judged episodes of a summary whose optimum is proved.
+std::vector<JudgedEpisode> ProvedEpisodes(const std::string& summary_json);
+
 /// Returns a heading and a row for each group of judged episodes, then one for all of them: how many they
 /// are, the mean, median and worst gap, and the mean gap of the better baseline of each episode. Empty if no
 /// episode has a gap.

@@ -156,21 +156,12 @@ ReportTable PolicyTable(const std::string& summary_json) {
 }
 
 LinePlot GapPlot(const std::string& summary_json) {
-  const Json summary = Json::parse(summary_json);
-  const std::string score = summary.at("world").at("figures").front().at("name");
   std::vector<double> gaps;
   std::vector<double> baselines;
-  for (const Json& episode : summary.at("judged_episodes")) {
-    if (episode.at("gap_percent").is_null()) {
-      continue;
-    }
-    gaps.push_back(episode.at("gap_percent"));
-    std::vector<double> reached;
-    for (const Json& baseline : episode.value("baselines", Json::object())) {
-      reached.push_back(GapPercent(baseline.get<double>(), episode.at("optimal_" + score).get<double>()));
-    }
-    if (!reached.empty()) {
-      baselines.push_back(*std::min_element(reached.begin(), reached.end()));
+  for (const JudgedEpisode& episode : ProvedEpisodes(summary_json)) {
+    gaps.push_back(GapPercent(episode.score, episode.optimal_score));
+    if (std::isfinite(episode.better_baseline)) {
+      baselines.push_back(GapPercent(episode.better_baseline, episode.optimal_score));
     }
   }
   LinePlot plot{.title = "Gap to the exact optimum of each judged episode",

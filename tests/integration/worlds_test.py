@@ -72,6 +72,14 @@ class Worlds(FrescoTest):
         for key in one:
             self.assertNotRegex(key, "aoi|optim|baseline|gap|bound|arrived")
 
+    def assert_log_has_the_weights_of(self, one):
+        """Retrains from the log of the run "four", and returns its path."""
+        log = self.folder / "four" / "traffic.lcm"
+        again = json.loads(self.run_fresco("retrain", log, "--strict", "--out", self.folder / "again", "--format",
+                                           "json")[0])
+        self.assertEqual(again["weights_crc32c"], one["weights_crc32c"])
+        return log
+
     def test_gives_the_same_weights_if_every_episode_has_a_field_of_its_own(self):
         path = self.folder / "fields.textproto"
         path.write_text(FIELDS)
@@ -80,10 +88,7 @@ class Worlds(FrescoTest):
         for key in ("weights_crc32c", "transitions", "updates", "average_aoi", "success"):
             self.assertEqual(four[key], one[key], key)
         self.assertEqual(one["success"], 1)  # the mask keeps every stop within reach
-        log = self.folder / "four" / "traffic.lcm"
-        again = json.loads(self.run_fresco("retrain", log, "--strict", "--out", self.folder / "again", "--format",
-                                           "json")[0])
-        self.assertEqual(again["weights_crc32c"], one["weights_crc32c"])
+        log = self.assert_log_has_the_weights_of(one)
         rows = list(csv.DictReader(self.run_fresco("log", "export", log)[0].splitlines()))
         self.assertLessEqual({row["slots"] for row in rows}, {"12", "13", "14", "15", "16"})
         self.assertGreater(len({(row["sensor_1_x_m"], row["sensor_1_y_m"]) for row in rows}), 500)
@@ -102,10 +107,7 @@ class Worlds(FrescoTest):
         for key in ("weights_crc32c", "transitions", "updates", "average_aoi", "success", "config_hash"):
             self.assertEqual(four[key], one[key], key)
         self.assertEqual(one["success"], 1)  # the mask keeps every stop within reach
-        log = self.folder / "four" / "traffic.lcm"
-        again = json.loads(self.run_fresco("retrain", log, "--strict", "--out", self.folder / "again", "--format",
-                                           "json")[0])
-        self.assertEqual(again["weights_crc32c"], one["weights_crc32c"])
+        log = self.assert_log_has_the_weights_of(one)
         obstacles = {(float(column), float(row)) for column, row in ((1, 3), (2, 3), (1, 4), (2, 4), (4, 3), (4, 4))}
         rows = list(csv.DictReader(self.run_fresco("log", "export", log)[0].splitlines()))
         self.assertFalse({(float(row["column"]), float(row["row"])) for row in rows} & obstacles)
