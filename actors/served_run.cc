@@ -65,7 +65,8 @@ int ServedRun::HandleOrders(const orders_t& message, int64_t actor_id, int64_t n
     if (wire.actor_id != actor_id || (wire.index >= 0 && wire.index < committed_)) {
       continue;
     }
-    if (FromWire(wire, order) && order.index < WindowEnd()) {
+    if (FromWire(wire, order) && order.index < WindowEnd() &&
+        SearchFits(order, experiment_.schedule(), experiment_.world().longest_episode())) {
       Accept(order, now_us);
     } else {
       ++contradictions;
@@ -212,15 +213,15 @@ MemoryNeed ActorMemory(const Experiment& experiment, int capacity) {
   const int64_t wanted = std::min(orders, versions.current) + std::min(orders, versions.target);
   constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
   const int64_t of_order = (kGrowth + 1) * static_cast<int64_t>(sizeof(Order)) + LongestResultBytes(world);
-  return {"actor",
-          1,
-          {{"run.environments_per_actor", "its environments",
-            Flyer::BytesFor(experiment, capacity, std::min<int64_t>(capacity, orders))},
-           {experiment.network_field(), "the networks that it holds",
-            NetworkStore::BytesFor(parameters, wanted)},
-           {"schedule.window", "the episodes of the orders in flight", orders * of_order},
-           {"world", "the world", world.bytes()},
-           {"run.actors", "the program", kProgramBytes}}};
+  return {
+      "actor",
+      1,
+      {{"run.environments_per_actor", "its environments",
+        Flyer::BytesFor(experiment, capacity, std::min<int64_t>(capacity, orders))},
+       {experiment.network_field(), "the networks that it holds", NetworkStore::BytesFor(parameters, wanted)},
+       {"schedule.window", "the episodes of the orders in flight", orders * of_order},
+       {"world", "the world", world.bytes()},
+       {"run.actors", "the program", kProgramBytes}}};
 }
 
 }  // namespace fresco

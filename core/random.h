@@ -24,6 +24,7 @@ enum class RandomPurpose : uint32_t {
   kEpisodeSeed = 6,      ///< seeds of training episodes; indices: episode low, episode high
   kEpisodeStart = 7,     ///< where a world's episode starts, by its own seed; indices: 0, 0
   kEvaluationSeed = 8,   ///< seeds of evaluation episodes; indices: episode low, episode high
+  kSearchOrders = 9,  ///< which training episodes search, from where on; indices: episode low, episode high
 };
 
 /// The stream of (seed, purpose, first index, second index). Small and copyable.

@@ -41,7 +41,8 @@ int RunAnew(const Arguments& arguments, const Settings& settings) {
     throw UsageError("--out: expected the run's folder, found none; give --out DIR, or --resume DIR");
   }
   // Check everything before making the folder, so that wrong use leaves nothing behind.
-  const Experiment experiment = Experiment::Load(ExperimentPath(arguments.config), settings);
+  const Experiment experiment =
+      RunFolder::WithStart(Experiment::Load(ExperimentPath(arguments.config), settings), arguments.out);
   RefuseIfTooLarge({LearnerMemory(experiment)}, ReadAvailableMemory());
   const int64_t run_id = RunIdFrom(arguments);
   RunFolder::CheckNew(arguments.out);

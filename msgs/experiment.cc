@@ -188,9 +188,38 @@ Experiment Experiment::Make(proto::ExperimentConfig given, const std::string& or
     experiment.network_ = MakeNetwork(config.agent(), experiment.world());
     CheckNetwork(experiment);
   });
-  const std::string canonical = experiment.CanonicalText();
-  experiment.hash_ = std::max(Crc32c(std::as_bytes(std::span(canonical))), 1u);
+  experiment.hash_ = experiment.ComputeHash();
   return experiment;
+}
+
+uint32_t Experiment::ComputeHash() const {
+  const std::string canonical = CanonicalText();
+  return std::max(Crc32c(std::as_bytes(std::span(canonical))), 1u);
+}
+
+Experiment Experiment::StartingFrom(std::shared_ptr<const Vector> parameters) const {
+  FRESCO_CHECK(parameters->size() == network_->parameter_count());
+  Experiment experiment = *this;
+  experiment.start_ = std::move(parameters);
+  experiment.config_.mutable_agent()->set_start_crc32c(Crc32c(Values(*experiment.start_)));
+  experiment.hash_ = experiment.ComputeHash();
+  return experiment;
+}
+
+Vector Experiment::FirstParameters() const {
+  if (!agent().has_start_crc32c()) {
+    return network_->InitialParameters(schedule().seed());
+  }
+  const std::string expected =
+      fmt::format("agent.start_crc32c: expected the network from which this run starts, with CRC-32C {:08x}",
+                  agent().start_crc32c());
+  if (start_ == nullptr) {
+    throw UsageError(expected + ", found none; name it with --start-from");
+  }
+  if (const uint32_t found = Crc32c(Values(*start_)); found != agent().start_crc32c()) {
+    throw UsageError(fmt::format("{}, found one with {:08x}", expected, found));
+  }
+  return *start_;
 }
 
 Experiment Experiment::Load(const std::string& path, const Settings& settings) {

@@ -70,10 +70,22 @@ class Experiment {
   /// CRC-32C of CanonicalText(); never 0. Messages carry it as `config_hash`.
   uint32_t hash() const { return hash_; }
 
+  /// The same experiment, but its training starts from these parameters; sets agent.start_crc32c, from which
+  /// the hash follows. CHECKs their number.
+  Experiment StartingFrom(std::shared_ptr<const Vector> parameters) const;
+  /// The parameters given to StartingFrom; null without.
+  const std::shared_ptr<const Vector>& start() const { return start_; }
+  /// The parameters with which the training begins: start(), or random ones that follow from schedule.seed.
+  /// Throws UsageError if agent.start_crc32c is set, but start() is null or has another CRC.
+  Vector FirstParameters() const;
+
  private:
+  uint32_t ComputeHash() const;
+
   proto::ExperimentConfig config_;
   std::shared_ptr<const World> world_;
   std::shared_ptr<const Network> network_;
+  std::shared_ptr<const Vector> start_;
   uint32_t hash_ = 0;
 };
 

@@ -115,6 +115,12 @@ bool AreFinite(const std::vector<float>& values) {
 
 }  // namespace
 
+bool SearchFits(const Order& order, const proto::Schedule& schedule, int longest_episode) {
+  return order.search_width == 0 ||
+         (order.kind == OrderKind::kTrain && schedule.has_search() &&
+          order.search_width == schedule.search().width() && order.search_from < longest_episode);
+}
+
 order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
   order_t message{};
   message.index = order.index;
@@ -122,6 +128,8 @@ order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
   message.attempt = attempt;
   message.kind = static_cast<int8_t>(order.kind);
   message.epsilon = order.epsilon;
+  message.search_width = order.search_width;
+  message.search_from = order.search_from;
   message.seed = static_cast<int64_t>(order.seed);
   message.current_version = order.current_version;
   message.target_version = order.target_version;
@@ -130,11 +138,13 @@ order_t ToWire(const Order& order, int64_t actor_id, int32_t attempt) {
 
 bool FromWire(const order_t& message, Order& order) {
   order = {message.index,           static_cast<OrderKind>(message.kind),
-           message.epsilon,         static_cast<uint64_t>(message.seed),
+           message.epsilon,         message.search_width,
+           message.search_from,     static_cast<uint64_t>(message.seed),
            message.current_version, message.target_version};
   return message.index >= 0 && message.index < (int64_t{1} << 32) &&
          (message.kind == 0 || message.kind == 1) && message.epsilon >= 0 && message.epsilon <= 1 &&
-         message.current_version >= 0 && message.target_version >= 0 && message.attempt >= 0;
+         message.search_width >= 0 && message.search_from >= 0 && message.current_version >= 0 &&
+         message.target_version >= 0 && message.attempt >= 0;
 }
 
 MessageLayout LayoutOf(int state_size, int actions) {

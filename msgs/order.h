@@ -20,9 +20,13 @@ struct Order {
   int64_t index = 0;                   ///< position in the run's sequence of orders, 0 .. 2^32 - 1
   OrderKind kind = OrderKind::kTrain;  ///< train or evaluate
   double epsilon = 0;                  ///< probability of a random action, 0 .. 1; 0 for an evaluation
-  uint64_t seed = 0;                   ///< of the episode: where it begins and how it explores
-  int32_t current_version = 0;         ///< version of the network that chooses the actions, >= 0
-  int32_t target_version = 0;  ///< version of the network used in the temporal-difference errors, >= 0
+  int32_t search_width = 0;            ///< of the beam search (training/beam_search.h); 0: none
+  /// The first transition whose action the search chooses, 0 .. longest episode - 1. Before it, the episode
+  /// explores with epsilon, behind it not at all.
+  int32_t search_from = 0;
+  uint64_t seed = 0;            ///< of the episode: where it begins and how it explores
+  int32_t current_version = 0;  ///< version of the network that chooses the actions, >= 0
+  int32_t target_version = 0;   ///< version of the network used in the temporal-difference errors, >= 0
   bool operator==(const Order&) const = default;
 };
 
@@ -31,6 +35,9 @@ struct Order {
 inline int64_t MaximumOrdersInFlight(const proto::Schedule& schedule) {
   return int64_t{schedule.window()} * (1 + int64_t{schedule.evaluation_episodes()});
 }
+
+/// Whether a run with this schedule has orders that search so, or the order does not search.
+bool SearchFits(const Order& order, const proto::Schedule& schedule, int longest_episode);
 
 /// Which of the two networks is meant.
 enum class NetworkKind : int8_t { kCurrent = 0, kTarget = 1 };

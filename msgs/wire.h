@@ -15,7 +15,7 @@
 namespace fresco {
 
 /// Raised with every change to a .lcm file.
-inline constexpr int32_t kProtocolVersion = 7;
+inline constexpr int32_t kProtocolVersion = 8;
 
 /// Every message fits one Ethernet frame: LCM drops a message if one of its fragments is lost.
 inline constexpr size_t kMaximumMessageBytes = 1350;

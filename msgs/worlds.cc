@@ -94,6 +94,12 @@ void CheckCapabilities(const Config& config, const World& world) {
                     "no places to set out for",
                     config.schedule().excursion_share(), name));
   }
+  if (config.schedule().has_search() && !world.description().copies) {
+    throw UsageError(
+        fmt::format("schedule.search: set; allowed: omitted, since the environments of the world {} can't be "
+                    "copied, and a search follows many episodes side by side",
+                    name));
+  }
   if (config.agent().flown_return_bound() && world.description().chance) {
     throw UsageError(
         fmt::format("agent.flown_return_bound: true; allowed: false, since in the world {} chance "

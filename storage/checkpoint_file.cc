@@ -136,6 +136,8 @@ void ToProto(const OrderInFlight& from, proto::CheckpointOrder& to) {
   to.set_index(from.order.index);
   to.set_evaluate(from.order.kind == OrderKind::kEvaluate);
   to.set_epsilon(from.order.epsilon);
+  to.set_search_width(from.order.search_width);
+  to.set_search_from(from.order.search_from);
   to.set_seed(from.order.seed);
   to.set_current_version(from.order.current_version);
   to.set_target_version(from.order.target_version);
@@ -143,9 +145,10 @@ void ToProto(const OrderInFlight& from, proto::CheckpointOrder& to) {
 }
 
 OrderInFlight FromProto(const proto::CheckpointOrder& from) {
-  return {{from.index(), from.evaluate() ? OrderKind::kEvaluate : OrderKind::kTrain, from.epsilon(),
-           from.seed(), from.current_version(), from.target_version()},
-          from.updates_at_writing()};
+  return {
+      {from.index(), from.evaluate() ? OrderKind::kEvaluate : OrderKind::kTrain, from.epsilon(),
+       from.search_width(), from.search_from(), from.seed(), from.current_version(), from.target_version()},
+      from.updates_at_writing()};
 }
 
 /// Reads the vectors of one checkpoint, which all have the same size.

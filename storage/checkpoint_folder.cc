@@ -132,7 +132,7 @@ Resumption ReadResumption(const std::filesystem::path& folder, const Settings& s
                     folder.string(), NewestRunHint(folder, "config.textproto")));
   }
   RefuseCompleteRun(folder);
-  Experiment experiment = Experiment::Load(config.string(), settings);
+  Experiment experiment = RunFolder::WithStart(Experiment::Load(config.string(), settings), folder);
   Resumption resumption{std::move(experiment), std::nullopt, {}};
   FindLatestUsable(folder, resumption);
   return resumption;

@@ -39,20 +39,22 @@ std::string Describe(const World& world, const PlannerProgress& progress, double
 }
 
 /// `others` are the names of the world's own policies.
-[[noreturn]] void RefusePolicy(const std::string& problem, const std::vector<std::string>& others) {
+[[noreturn]] void RefusePolicy(const std::string& problem, const std::vector<std::string>& others,
+                               const std::string& option) {
   const std::string names = others.empty() ? "" : fmt::format("; or {}", fmt::join(others, ", "));
-  throw UsageError(fmt::format("--policy: expected {}{}; {}", kPolicyFiles, names, problem));
+  throw UsageError(fmt::format("{}: expected {}{}; {}", option, kPolicyFiles, names, problem));
 }
 
 /// Returns the path of the network file or checkpoint that the policy names.
-std::filesystem::path PolicyFile(const std::string& policy, const std::vector<std::string>& others) {
+std::filesystem::path PolicyFile(const std::string& policy, const std::vector<std::string>& others,
+                                 const std::string& option) {
   const std::filesystem::path path(policy);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
     RefusePolicy(fmt::format("\"{}\" is none of these, and there is no such file{}{}", policy,
                              others.empty() ? "; the world has no policies of its own" : "",
                              DidYouMean(policy, others)),
-                 others);
+                 others, option);
   }
   if (!std::filesystem::is_directory(path, error)) {
     return path;
@@ -60,7 +62,7 @@ std::filesystem::path PolicyFile(const std::string& policy, const std::vector<st
   if (!std::filesystem::exists(path / kBestNetwork, error)) {
     RefusePolicy(
         fmt::format("the folder {} has no {}{}", policy, kBestNetwork, NewestRunHint(path, kBestNetwork)),
-        others);
+        others, option);
   }
   return path / kBestNetwork;
 }
@@ -95,12 +97,13 @@ std::vector<std::string> BuiltInPolicies(const World& world) {
 /// Reads the network that a path names. The path may be a network file, the folder of a run (its
 /// best.network) or a checkpoint (its best network so far). Throws UsageError that says what a policy can be
 /// if the path is none of these.
-StoredNetwork ReadPolicy(const std::string& policy, const std::vector<std::string>& others) {
-  const std::filesystem::path path = PolicyFile(policy, others);
+StoredNetwork ReadPolicy(const std::string& policy, const std::vector<std::string>& others,
+                         const std::string& option = "--policy") {
+  const std::filesystem::path path = PolicyFile(policy, others, option);
   try {
     return ReadPolicyFile(path);
   } catch (const Error& error) {
-    RefusePolicy(error.what(), others);
+    RefusePolicy(error.what(), others, option);
   }
 }
 
@@ -180,6 +183,18 @@ ChosenPolicy ReadChoice(const PolicyChoice& choice) {
                     experiment.world().description().name));
   }
   return {std::move(experiment), std::move(network)};
+}
+
+Experiment StartFrom(const Experiment& experiment, const std::string& policy, const std::string& option) {
+  StoredNetwork network = ReadPolicy(policy, {}, option);
+  const std::vector<int> expected = experiment.network()->layer_sizes();
+  const std::vector<int> found = network.experiment.network()->layer_sizes();
+  if (expected != found) {
+    throw UsageError(fmt::format(
+        "{}: expected a network with layers of {} ({}), as this experiment has; found {} in {}", option,
+        fmt::join(expected, ", "), experiment.network_field(), fmt::join(found, ", "), policy));
+  }
+  return experiment.StartingFrom(std::make_shared<const Vector>(std::move(network.parameters)));
 }
 
 FlownPolicy FlyPolicy(const PolicyChoice& choice, const ChosenPolicy& chosen, uint64_t seed) {

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <system_error>
 
+#include "core/bytes.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "storage/network_file.h"
@@ -14,6 +15,8 @@
 
 namespace fresco {
 namespace {
+
+constexpr char kStartNetwork[] = "start.network";
 
 std::string MetricsHeader(const WorldDescription& description) {
   std::string header =
@@ -54,6 +57,25 @@ RunFolder::RunFolder(std::filesystem::path directory, const Experiment& experime
     ClearLeftovers();
   }
   WriteFileAtomically(directory_ / "config.textproto", experiment.Text());
+  if (experiment.start() != nullptr) {
+    WriteFileAtomically(directory_ / kStartNetwork,
+                        SerializeNetworkFile({experiment, 0, 0, *experiment.start()}));
+  }
+}
+
+Experiment RunFolder::WithStart(const Experiment& experiment, const std::filesystem::path& directory) {
+  std::error_code error;
+  const std::filesystem::path path = directory / kStartNetwork;
+  if (!experiment.agent().has_start_crc32c() || !std::filesystem::exists(path, error)) {
+    return experiment;
+  }
+  auto parameters = std::make_shared<const Vector>(ReadNetworkFile(path).parameters);
+  const uint32_t found = Crc32c(Values(*parameters));
+  Expect(found == experiment.agent().start_crc32c(), path.string(),
+         fmt::format(
+             "expected the network with CRC-32C {:08x}, from which this run starts; found one with {:08x}",
+             experiment.agent().start_crc32c(), found));
+  return experiment.StartingFrom(std::move(parameters));
 }
 
 void RunFolder::RefuseResults(const std::filesystem::path& directory) {

@@ -1,8 +1,8 @@
-// Writes the files of a run's folder: config.textproto, metrics.csv, best.network, final.network,
-// optimum.json, summary.json and checkpoints/. Every file is complete at all times. A thread of its own
-// (FileWriter) writes the files that change during the training, so a full disk does not stop the training.
-// LearnerProcess owns one; only its training thread may use it. Only one process at a time may work in a
-// folder; callers make sure of that (core/files.h).
+// Writes the files of a run's folder: config.textproto, start.network, metrics.csv, best.network,
+// final.network, optimum.json, summary.json and checkpoints/. Every file is complete at all times. A thread
+// of its own (FileWriter) writes the files that change during the training, so a full disk does not stop the
+// training. LearnerProcess owns one; only its training thread may use it. Only one process at a time may work
+// in a folder; callers make sure of that (core/files.h).
 #pragma once
 
 #include <filesystem>
@@ -35,6 +35,10 @@ class RunFolder {
   /// run. kResume: keeps the files of the incomplete run and deletes its half-written ones. Throws UsageError
   /// if the folder can't be made.
   RunFolder(std::filesystem::path directory, const Experiment& experiment, Use use = Use::kNewRun);
+
+  /// Gives the experiment of a folder the network with which its training starts, if it starts from one
+  /// (start.network). Throws UsageError as Experiment::FirstParameters does, or if the file can't be used.
+  static Experiment WithStart(const Experiment& experiment, const std::filesystem::path& directory);
 
   const std::filesystem::path& directory() const { return directory_; }
 

@@ -15,6 +15,7 @@
 #include "nn/mlp.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
+#include "storage/policy.h"
 #include "storage/run_folder.h"
 #include "tools/subcommands.h"
 
@@ -27,6 +28,7 @@ struct RetrainOptions {
   std::string config;
   std::vector<std::string> settings;
   std::optional<uint64_t> seed;
+  std::string start_from;
   std::string out;
   KeyFile key_file;
   bool strict = false;
@@ -65,10 +67,14 @@ Experiments ChooseExperiments(const RetrainOptions& options, const LoggedRun& ru
         "the log does not contain the whole configuration of its run (channel FRESCO_RUN); name it "
         "with --config");
   }
-  const Experiment chosen =
+  Experiment chosen =
       options.config.empty()
           ? Experiment::Parse(*run.config_text, "the recorded configuration", SettingsFrom(options))
           : Experiment::Load(ExperimentPath(options.config), SettingsFrom(options));
+  if (!options.start_from.empty()) {
+    chosen = StartFrom(chosen, options.start_from);
+  }
+  chosen.FirstParameters();  // refuses a start that is missing
   if (chosen.hash() == run.identity.config_hash) {
     return {recorded, chosen, Retraining::Use::kSameRun};
   }
@@ -127,6 +133,8 @@ void AddRetrain(CLI::App& app, Command& command) {
   retrain->add_option("log", options->logs, "Event logs of one run, in any order")->required();
   retrain->add_option("--config", options->config, ConfigHelp("the recorded one"));
   retrain->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
+  retrain->add_option("--start-from", options->start_from,
+                      "The network with which a run began that had --start-from, or another one");
   retrain->add_option("--seed", options->seed, "Seed of everything random, except the recorded flights");
   retrain->add_option("--run", options->run,
                       "Id of the run in the log (16 hexadecimal digits); default: the only one");

@@ -16,6 +16,7 @@
 #include "processes/training_run.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
+#include "storage/policy.h"
 #include "storage/run_folder.h"
 #include "storage/summary.h"
 #include "tools/subcommands.h"
@@ -29,6 +30,7 @@ struct TrainOptions {
   std::optional<int> actors;
   std::optional<uint64_t> seed;
   std::string out;
+  std::string start_from;
   std::string resume;
   std::string lcm_url;
   bool record = false;
@@ -110,7 +112,10 @@ int Train(TrainingRun& run, const WorldDescription& world, const std::filesystem
 }
 
 int TrainAnew(const TrainOptions& options) {
-  const Experiment experiment = Experiment::Load(ExperimentPath(options.config), SettingsFrom(options));
+  Experiment experiment = Experiment::Load(ExperimentPath(options.config), SettingsFrom(options));
+  if (!options.start_from.empty()) {
+    experiment = StartFrom(experiment, options.start_from);
+  }
   const std::filesystem::path folder =
       options.out.empty() ? NewRunFolder() : std::filesystem::path(options.out);
   TrainingRun run(experiment, folder, options.bus);
@@ -147,9 +152,13 @@ void AddTrain(CLI::App& app, Command& command) {
   CLI::Option* seed = train->add_option("--seed", options->seed, "Seed of everything random");
   CLI::Option* out =
       train->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
+  CLI::Option* start_from = train->add_option("--start-from", options->start_from,
+                                              "Begin with the network of a policy (a run's folder, a network "
+                                              "file or a checkpoint), not with a random one");
   train->add_option("--resume", options->resume, "Continue the run in this folder from its latest checkpoint")
       ->excludes(config)
       ->excludes(seed)
+      ->excludes(start_from)
       ->excludes(out);
   train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
   CLI::Option* record = train->add_flag("--record", options->record, "Record all traffic to DIR/traffic.lcm");

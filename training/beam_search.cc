@@ -38,17 +38,32 @@ BeamSearch::BeamSearch(const Experiment& experiment, int width)
   }
 }
 
-void BeamSearch::Begin(uint64_t seed, std::shared_ptr<const Vector> parameters) {
+int64_t BeamSearch::BytesFor(const Experiment& experiment, int width) {
+  const World& world = experiment.world();
+  const size_t of_node = sizeof(Node) + static_cast<size_t>(world.state_size()) * sizeof(float) +
+                         static_cast<size_t>(world.actions());
+  const size_t of_choices = static_cast<size_t>(world.actions()) * sizeof(Choice);
+  const size_t of_steps = static_cast<size_t>(world.longest_episode()) * sizeof(Origin);
+  return experiment.network()->WorkspaceBytes(width, NetworkWorkspace::Passes::kForward) +
+         width * static_cast<int64_t>(2 * of_node + of_choices + of_steps);
+}
+
+void BeamSearch::Begin(uint64_t seed, std::shared_ptr<const Vector> parameters,
+                       std::span<const int16_t> first) {
+  first_.assign(first.begin(), first.end());
   parameters_ = std::move(parameters);
   steps_.clear();
   best_return_ = -std::numeric_limits<double>::infinity();
   best_step_ = 0;
-  Node& first = nodes_.front();
-  first.environment->Reset(seed);
-  first.environment->WriteState(first.state);
-  first.environment->WriteMask(first.mask);
-  first.origin = {};
-  first.earned = 0;
+  Node& root = nodes_.front();
+  root.environment->Reset(seed);
+  for (const int16_t action : first) {
+    root.environment->Step(action);
+  }
+  root.environment->WriteState(root.state);
+  root.environment->WriteMask(root.mask);
+  root.origin = {};
+  root.earned = 0;
   count_ = 1;
 }
 
@@ -135,6 +150,7 @@ std::vector<int16_t> BeamSearch::BestActions() const {
     actions.push_back(origin.action);
     origin = steps_[step - 1][static_cast<size_t>(origin.parent)];
   }
+  actions.insert(actions.end(), first_.rbegin(), first_.rend());
   std::reverse(actions.begin(), actions.end());
   return actions;
 }

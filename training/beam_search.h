@@ -22,13 +22,19 @@ class BeamSearch {
   /// least 1.
   BeamSearch(const Experiment& experiment, int width);
 
-  /// Begins with the episode of a seed.
-  void Begin(uint64_t seed, std::shared_ptr<const Vector> parameters);
+  /// The memory of an object, bytes. What a copy of an environment keeps on the heap is left out.
+  static int64_t BytesFor(const Experiment& experiment, int width);
+
+  int width() const { return static_cast<int>(width_); }
+
+  /// Begins with the episode of a seed, behind the actions `first`, which its masks allow and which do not
+  /// end it.
+  void Begin(uint64_t seed, std::shared_ptr<const Vector> parameters, std::span<const int16_t> first = {});
 
   /// Makes the partial episodes longer by one step. Returns false once all of them have ended.
   bool Step();
 
-  /// The actions of the best episode that has ended, once Step has returned false.
+  /// All actions of the best episode that has ended, once Step has returned false.
   std::vector<int16_t> BestActions() const;
 
  private:
@@ -59,6 +65,7 @@ class BeamSearch {
 
   Experiment experiment_;
   size_t width_;
+  std::vector<int16_t> first_;  // the actions before the search
   std::shared_ptr<const Vector> parameters_;
   std::unique_ptr<NetworkWorkspace> workspace_;
   std::vector<Node> nodes_;   // the partial episodes; only the first `count_` are in use

@@ -164,7 +164,7 @@ void Dqn::ComputeTargets(const MiniBatch& batch, ColumnRange columns, NetworkWor
   for (int column = 0; column < next_columns.end; ++column) {
     const auto i = static_cast<size_t>(columns.first + column);
     const float next_value = next_workspace.output()(choices[static_cast<size_t>(column)], column);
-    const float later = batch.terminal[i] != 0 ? 0.0f : options_.discount * next_value;
+    const float later = batch.discounts[i] * next_value;
     targets_[i] = std::max(batch.rewards[i] + later, batch.least_values[i]);
   }
 }

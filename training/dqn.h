@@ -26,7 +26,6 @@ int GreedyAction(const Matrix& values, int column, std::span<const uint8_t> mask
 
 struct DqnOptions {
   bool double_dqn = false;  ///< the current network chooses the action in s', the target network values it
-  float discount = 1;       ///< gamma, 0 .. 1
   int batch_size = 200;     ///< transitions in a mini-batch, >= 1
   AdamOptions adam;
 };
@@ -43,9 +42,9 @@ class Dqn {
   static int64_t BatchBytes(const Network& network, int batch_size, int threads);
 
   /// Makes one step of Adam on the loss L = mean (y - Q(s, a))^2 (eq. Loss-Func) of a batch of exactly
-  /// options.batch_size transitions. The target y is r if the transition is terminal; otherwise it is r plus
-  /// discount times the target network's largest value over the actions allowed in s'. If y is below the
-  /// transition's least value, that value replaces it. Returns L before the step.
+  /// options.batch_size transitions. The target y is r plus the transition's discount times the target
+  /// network's largest value over the actions allowed in s'. If y is below the transition's least value, that
+  /// value replaces it. Returns L before the step.
   double Update(const MiniBatch& batch, double learning_rate);
 
   /// Copies the current network's parameters to the target network: theta^- = theta.

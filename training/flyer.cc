@@ -15,7 +15,11 @@ Flyer::Flyer(const Experiment& experiment, int capacity)
       excursion_share_(experiment.schedule().excursion_share()),
       capacity_(capacity),
       current_workspace_(experiment.network()->NewWorkspace(capacity, NetworkWorkspace::Passes::kForward)),
-      target_workspace_(experiment.network()->NewWorkspace(capacity, NetworkWorkspace::Passes::kForward)) {}
+      target_workspace_(experiment.network()->NewWorkspace(capacity, NetworkWorkspace::Passes::kForward)) {
+  if (experiment.schedule().has_search()) {
+    search_.emplace(experiment, experiment.schedule().search().width());
+  }
+}
 
 int64_t Flyer::BytesFor(const Experiment& experiment, int capacity, int64_t flights) {
   constexpr int64_t kGrowth = 2;  // a vector that grows may have twice the room that it needs
@@ -23,7 +27,10 @@ int64_t Flyer::BytesFor(const Experiment& experiment, int capacity, int64_t flig
   const int64_t of_flight =
       static_cast<int64_t>(sizeof(Flight)) + HeapBytes(world.actions()) + kGrowth * LongestResultBytes(world);
   return 2 * experiment.network()->WorkspaceBytes(capacity, NetworkWorkspace::Passes::kForward) +
-         flights * of_flight;
+         flights * of_flight +
+         (experiment.schedule().has_search()
+              ? BeamSearch::BytesFor(experiment, experiment.schedule().search().width())
+              : 0);
 }
 
 bool Flyer::IsFlying(int64_t order_index) const {
@@ -54,6 +61,7 @@ std::unique_ptr<Flyer::Flight> Flyer::FreeFlight() {
 
 void Flyer::Start(const Order& order, SharedParameters current, SharedParameters target) {
   FRESCO_CHECK(HasRoom() && current != nullptr && target != nullptr);
+  FRESCO_CHECK(order.search_width == 0 || (search_ && search_->width() == order.search_width));
   std::unique_ptr<Flight> flight = FreeFlight();
   flight->order = order;
   flight->current = std::move(current);
@@ -61,6 +69,7 @@ void Flyer::Start(const Order& order, SharedParameters current, SharedParameters
   flight->recorder.Begin(order.seed);
   flight->result.td_errors.clear();
   flight->place.reset();
+  flight->plan.clear();
   flight->done = false;
   const auto behind =
       std::upper_bound(flights_.begin(), flights_.end(), Versions(*flight),
@@ -69,14 +78,21 @@ void Flyer::Start(const Order& order, SharedParameters current, SharedParameters
 }
 
 void Flyer::Step(const std::function<void(const Order&, const OrderResult&)>& finished) {
-  for (size_t begin = 0; begin < flights_.size();) {
-    const Flight& first = *flights_[begin];
+  StepSearch();
+  stepping_.clear();
+  for (const auto& flight : flights_) {
+    if (!WaitsForSearch(*flight)) {
+      stepping_.push_back(flight.get());
+    }
+  }
+  for (size_t begin = 0; begin < stepping_.size();) {
+    const Flight& first = *stepping_[begin];
     size_t end = begin + 1;
-    while (end < flights_.size() && flights_[end]->current == first.current &&
-           flights_[end]->target == first.target) {
+    while (end < stepping_.size() && stepping_[end]->current == first.current &&
+           stepping_[end]->target == first.target) {
       ++end;
     }
-    StepGroup(std::span(flights_).subspan(begin, end - begin));
+    StepGroup(std::span(stepping_).subspan(begin, end - begin));
     begin = end;
   }
   std::erase_if(flights_, [&](auto& flight) {
@@ -99,7 +115,29 @@ void Flyer::Finish(Flight& flight, const std::function<void(const Order&, const 
   flight.recorder.Reuse(std::move(flight.result.episode));
 }
 
-void Flyer::StepGroup(std::span<const std::unique_ptr<Flight>> group) {
+bool Flyer::WaitsForSearch(const Flight& flight) {
+  return flight.order.search_width > 0 && flight.plan.empty() && !flight.recorder.ended() &&
+         flight.recorder.episode().transitions() >= flight.order.search_from;
+}
+
+/// Makes the search of one flight a step longer, so that other work is never far away.
+void Flyer::StepSearch() {
+  if (searching_ == nullptr) {
+    const auto waiting = std::find_if(flights_.begin(), flights_.end(),
+                                      [](const auto& flight) { return WaitsForSearch(*flight); });
+    if (waiting == flights_.end()) {
+      return;
+    }
+    searching_ = waiting->get();
+    search_->Begin(searching_->order.seed, searching_->current, searching_->recorder.episode().actions);
+  }
+  if (!search_->Step()) {
+    searching_->plan = search_->BestActions();
+    searching_ = nullptr;
+  }
+}
+
+void Flyer::StepGroup(std::span<Flight* const> group) {
   const auto batch = static_cast<int>(group.size());
   Matrix& observations = current_workspace_->input();
   for (int column = 0; column < batch; ++column) {
@@ -137,6 +175,9 @@ void Flyer::FinishLastTransition(Flight& flight, int column) {
 }
 
 int Flyer::ChooseAction(Flight& flight, int column) const {
+  if (!flight.plan.empty()) {
+    return flight.plan[static_cast<size_t>(flight.recorder.episode().transitions())];
+  }
   const std::optional<int> exploring = Explore(flight, column);
   return exploring ? *exploring : GreedyAction(current_workspace_->output(), column, flight.recorder.mask());
 }

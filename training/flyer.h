@@ -1,6 +1,7 @@
-// Flies orders in many environments side by side, epsilon-greedily. Environments whose orders name the same
-// two versions share one forward pass. The episode of an order is a pure function of the order and its
-// networks; neither the other flights nor its column in the batch change a bit. Not thread-safe.
+// Flies orders in many environments side by side: epsilon-greedily, and from the order's search_from on as a
+// beam search found it. Environments whose orders name the same two versions share one forward pass. The
+// episode of an order is a pure function of the order and its networks; neither the other flights nor its
+// column in the batch change a bit. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include "msgs/experiment.h"
 #include "msgs/order.h"
 #include "nn/network.h"
+#include "training/beam_search.h"
 #include "training/dqn.h"
 #include "worlds/episode.h"
 
@@ -38,11 +40,13 @@ class Flyer {
   bool IsFlying(int64_t order_index) const;
   std::vector<int64_t> OrderIndices() const;
 
-  /// Begins the flight of an order with the parameters of its two versions. CHECKs that there is room.
+  /// Begins the flight of an order with the parameters of its two versions. CHECKs that there is room, and
+  /// that the order does not search or its search_width is schedule.search.width.
   void Start(const Order& order, SharedParameters current, SharedParameters target);
 
-  /// Takes one step of every open order. Calls `finished` with the order and the result of each episode that
-  /// ends; the result is valid during the call. Allocates nothing once it has had as many flights at a time
+  /// Takes one step of every open order, except those that wait for their search; one of these searches a
+  /// step further. Calls `finished` with the order and the result of each episode that ends; the result is
+  /// valid during the call. Without searches, it allocates nothing once it has had as many flights at a time
   /// and episodes as long.
   void Step(const std::function<void(const Order&, const OrderResult&)>& finished);
 
@@ -54,15 +58,18 @@ class Flyer {
     SharedParameters current;
     SharedParameters target;
     EpisodeRecorder recorder;
-    OrderResult result;        // td_errors grows with every transition; the rest is there at the end
-    float chosen_value = 0;    // Q(s, a) of the last transition
-    std::optional<int> place;  // that an excursion leads to
-    bool done = false;         // the episode has ended and its last error is known
+    OrderResult result;         // td_errors grows with every transition; the rest is there at the end
+    float chosen_value = 0;     // Q(s, a) of the last transition
+    std::optional<int> place;   // that an excursion leads to
+    std::vector<int16_t> plan;  // all actions of the episode, once the search has found them
+    bool done = false;          // the episode has ended and its last error is known
   };
 
   static std::pair<int32_t, int32_t> Versions(const Flight& flight);
   std::unique_ptr<Flight> FreeFlight();
-  void StepGroup(std::span<const std::unique_ptr<Flight>> group);
+  static bool WaitsForSearch(const Flight& flight);
+  void StepSearch();
+  void StepGroup(std::span<Flight* const> group);
   void Finish(Flight& flight, const std::function<void(const Order&, const OrderResult&)>& finished);
   void FinishLastTransition(Flight& flight, int column);
   int ChooseAction(Flight& flight, int column) const;
@@ -78,6 +85,9 @@ class Flyer {
   std::unique_ptr<NetworkWorkspace> target_workspace_;
   std::vector<std::unique_ptr<Flight>> flights_;  // those of the same two versions are neighbours
   std::vector<std::unique_ptr<Flight>> free_flights_;
+  std::vector<Flight*> stepping_;     // those of flights_ that do not wait for a search
+  std::optional<BeamSearch> search_;  // if the schedule has searches
+  Flight* searching_ = nullptr;       // whose plan search_ is at
 };
 
 /// One greedy episode with a network: what `fresco evaluate` flies.

@@ -22,7 +22,7 @@ MiniBatch::MiniBatch(int inputs, int action_count, int batch_size)
       next_observations(inputs, batch_size),
       actions(static_cast<size_t>(batch_size)),
       rewards(static_cast<size_t>(batch_size)),
-      terminal(static_cast<size_t>(batch_size)),
+      discounts(static_cast<size_t>(batch_size)),
       least_values(static_cast<size_t>(batch_size), -std::numeric_limits<float>::infinity()),
       next_masks(static_cast<size_t>(action_count) * static_cast<size_t>(batch_size)) {}
 
@@ -38,7 +38,7 @@ int64_t MiniBatch::BytesFor(int inputs, int action_count, int batch_size) {
   const size_t of_transition = 2 * static_cast<size_t>(inputs) * sizeof(Matrix::Scalar) +
                                static_cast<size_t>(action_count) * sizeof(decltype(next_masks)::value_type) +
                                sizeof(decltype(actions)::value_type) + sizeof(decltype(rewards)::value_type) +
-                               sizeof(decltype(terminal)::value_type) +
+                               sizeof(decltype(discounts)::value_type) +
                                sizeof(decltype(least_values)::value_type);
   return batch_size * static_cast<int64_t>(of_transition);
 }
@@ -54,8 +54,7 @@ void ReplayMemory::Insert(const Transition& transition) {
   float* record = Record(next_);
   record = std::copy(transition.observation.begin(), transition.observation.end(), record);
   record = std::copy(transition.next_observation.begin(), transition.next_observation.end(), record);
-  const Rest rest{transition.reward, transition.least_value, transition.action,
-                  static_cast<uint8_t>(transition.terminal ? 1 : 0)};
+  const Rest rest{transition.reward, transition.discount, transition.least_value, transition.action};
   std::memcpy(record, &rest, sizeof(rest));
   std::memcpy(record + FloatsFor(sizeof(rest)), transition.next_mask.data(), mask_size_);
   next_ = (next_ + 1) % capacity_;
@@ -98,7 +97,7 @@ void ReplayMemory::Copy(int64_t index, int column, MiniBatch& batch) const {
   const auto to = static_cast<size_t>(column);
   batch.actions[to] = rest.action;
   batch.rewards[to] = rest.reward;
-  batch.terminal[to] = rest.terminal;
+  batch.discounts[to] = rest.discount;
   batch.least_values[to] = rest.least_value;
   const auto* mask = reinterpret_cast<const uint8_t*>(record + FloatsFor(sizeof(rest)));
   uint8_t* allowed = batch.next_masks.data() + to * static_cast<size_t>(actions_);

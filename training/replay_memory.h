@@ -29,22 +29,23 @@ struct MiniBatch {
     return std::span(next_masks).subspan(static_cast<size_t>(column) * count, count);
   }
 
-  Matrix observations;              ///< [inputs x batch]
-  Matrix next_observations;         ///< [inputs x batch]
-  std::vector<int16_t> actions;     ///< [batch]
-  std::vector<float> rewards;       ///< [batch]
-  std::vector<uint8_t> terminal;    ///< [batch]; 1: the episode ended, so there is no action in s'
+  Matrix observations;           ///< [inputs x batch]
+  Matrix next_observations;      ///< [inputs x batch]
+  std::vector<int16_t> actions;  ///< [batch]
+  std::vector<float> rewards;    ///< [batch]
+  std::vector<float> discounts;  ///< [batch]; how much the value of s' counts; 0 if the episode ended there
   std::vector<float> least_values;  ///< [batch]; a lower bound of Q(s, a); -infinity if none is known
   std::vector<uint8_t> next_masks;  ///< [batch x actions]; see next_mask
 };
 
-/// One transition (s, a, r, s') to insert.
+/// One transition (s, a, r, s') to insert. It may stand for several that follow each other: then s' is the
+/// state behind the last of them, and r is what they earned.
 struct Transition {
   std::span<const float> observation;       ///< s as the network sees it, [inputs]
   std::span<const float> next_observation;  ///< s' as the network sees it, [inputs]
   int16_t action = 0;
   float reward = 0;
-  bool terminal = false;
+  float discount = 0;                  ///< as in MiniBatch
   std::span<const uint8_t> next_mask;  ///< actions allowed in s': bit a % 8 of byte a / 8
   float least_value = -std::numeric_limits<float>::infinity();  ///< as in MiniBatch
 };
@@ -77,9 +78,9 @@ class ReplayMemory {
   /// cache.
   struct Rest {
     float reward;
+    float discount;
     float least_value;
     int16_t action;
-    uint8_t terminal;
   };
   float* Record(int64_t index) { return records_.data() + static_cast<size_t>(index) * record_size_; }
   const float* Record(int64_t index) const {

@@ -19,9 +19,14 @@ double IntegerPower(double base, int64_t exponent) {
   return power;
 }
 
+/// The stream of an episode.
+RandomStream StreamOf(uint64_t seed, RandomPurpose purpose, int64_t episode) {
+  const auto number = static_cast<uint64_t>(episode);
+  return {seed, purpose, static_cast<uint32_t>(number), static_cast<uint32_t>(number >> 32)};
+}
+
 uint64_t SeedOf(uint64_t seed, RandomPurpose purpose, int64_t number) {
-  const auto index = static_cast<uint64_t>(number);
-  RandomStream stream(seed, purpose, static_cast<uint32_t>(index), static_cast<uint32_t>(index >> 32));
+  RandomStream stream = StreamOf(seed, purpose, number);
   const uint64_t high = stream.NextWord();
   return high << 32 | stream.NextWord();
 }
@@ -51,6 +56,15 @@ std::vector<uint64_t> FixedEvaluationSeeds(const proto::Schedule& schedule) {
 
 std::vector<uint64_t> FixedDeliverySeeds(const proto::Schedule& schedule) {
   return EvaluationSeeds(schedule, schedule.evaluation_episodes());
+}
+
+std::optional<int> SearchedFrom(const proto::Schedule& schedule, int64_t episode, int longest_episode) {
+  RandomStream stream = StreamOf(schedule.seed(), RandomPurpose::kSearchOrders, episode);
+  if (!schedule.has_search() || stream.NextUniform() >= schedule.search().share()) {
+    return std::nullopt;
+  }
+  const double first = stream.NextUniform();
+  return static_cast<int>(first * stream.NextUniform() * longest_episode);
 }
 
 double EpsilonOf(const proto::Schedule& schedule, int64_t episode, int64_t transitions) {

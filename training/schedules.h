@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "msgs/proto/experiment.pb.h"
@@ -20,6 +21,10 @@ uint64_t EvaluationSeed(uint64_t seed, int64_t episode);
 std::vector<uint64_t> FixedEvaluationSeeds(const proto::Schedule& schedule);
 /// Then the seeds of those that judge the version that is delivered. No evaluation before had them.
 std::vector<uint64_t> FixedDeliverySeeds(const proto::Schedule& schedule);
+
+/// The first transition whose action a beam search chooses in training episode number `episode`, 0 ..
+/// longest_episode - 1, or none if that episode does not search. Most begin early.
+std::optional<int> SearchedFrom(const proto::Schedule& schedule, int64_t episode, int longest_episode);
 
 /// The epsilon, 0 .. 1, of training episode number `episode` (0, 1, ..), if its order is written when
 /// `transitions` transitions are committed.

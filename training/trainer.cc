@@ -14,7 +14,6 @@ namespace {
 
 DqnOptions OptionsOf(const proto::Agent& agent) {
   return {agent.double_dqn(),
-          static_cast<float>(agent.discount()),
           agent.batch_size(),
           {agent.adam().beta1(), agent.adam().beta2(), agent.adam().epsilon()}};
 }
@@ -39,10 +38,9 @@ Trainer::Trainer(const Experiment& experiment, TrainerOutput output, int threads
       history_(experiment.agent().replay_capacity()),
       batch_(experiment.world().observation_size(), experiment.world().actions(),
              experiment.agent().batch_size()),
-      dqn_(experiment.network(), experiment.network()->InitialParameters(experiment.schedule().seed()),
-           OptionsOf(experiment.agent()), threads),
-      observation_(static_cast<size_t>(experiment.world().observation_size())),
-      next_observation_(observation_.size()),
+      dqn_(experiment.network(), experiment.FirstParameters(), OptionsOf(experiment.agent()), threads),
+      observations_(static_cast<size_t>(experiment.agent().n_step() + 1),
+                    std::vector<float>(static_cast<size_t>(experiment.world().observation_size()))),
       least_values_(static_cast<size_t>(experiment.world().longest_episode())) {}
 
 void Trainer::Begin() {
@@ -117,17 +115,35 @@ int64_t Trainer::EvaluationsDue() const {
 
 /// Insert follows, with this transition of the episode and then with those behind it, one after the other.
 void Trainer::BeginInserting(const Episode& episode, int transition) {
-  experiment_.world().Observe(episode.state(static_cast<size_t>(transition)), observation_);
+  for (int state = transition; state < transition + experiment_.agent().n_step(); ++state) {
+    Observe(episode, state);
+  }
 }
 
+/// Keeps what the network sees of a state, if the episode has that one.
+void Trainer::Observe(const Episode& episode, int state) {
+  if (state <= episode.transitions()) {
+    experiment_.world().Observe(episode.state(static_cast<size_t>(state)), Observation(state));
+  }
+}
+
+/// Inserts a transition together with the n_step - 1 ones behind it, or as many as there are.
 void Trainer::Insert(const Episode& episode, int transition) {
   const auto i = static_cast<size_t>(transition);
-  experiment_.world().Observe(episode.state(i + 1), next_observation_);
+  Observe(episode, transition + experiment_.agent().n_step());
+  const int end = std::min(transition + experiment_.agent().n_step(), episode.transitions());
+  double reward = 0;
+  double discount = 1;
+  for (size_t step = i; step < static_cast<size_t>(end); ++step) {
+    reward += discount * static_cast<double>(episode.rewards[step]);
+    discount *= experiment_.agent().discount();
+  }
+  const bool terminal = end == episode.transitions() && episode.ending == Ending::kTerminal;
   const auto mask_size = static_cast<size_t>(MaskSize(experiment_.world().actions()));
-  const bool terminal = transition + 1 == episode.transitions() && episode.ending == Ending::kTerminal;
-  replay_.Insert({observation_, next_observation_, episode.actions[i], episode.rewards[i], terminal,
-                  std::span(episode.next_masks).subspan(i * mask_size, mask_size), least_values_[i]});
-  std::swap(observation_, next_observation_);
+  replay_.Insert({Observation(transition), Observation(end), episode.actions[i], static_cast<float>(reward),
+                  terminal ? 0.0f : static_cast<float>(discount),
+                  std::span(episode.next_masks).subspan(static_cast<size_t>(end - 1) * mask_size, mask_size),
+                  least_values_[i]});
 }
 
 void Trainer::UpdateOnce() {
@@ -190,6 +206,10 @@ void Trainer::WriteTrainingOrder() {
     Order order;
     order.kind = OrderKind::kTrain;
     order.epsilon = EpsilonOf(schedule, training_orders_, progress_.transitions);
+    if (const auto from = SearchedFrom(schedule, training_orders_, experiment_.world().longest_episode())) {
+      order.search_width = schedule.search().width();
+      order.search_from = *from;
+    }
     order.seed = EpisodeSeed(schedule.seed(), training_orders_);
     progress_.epsilon = order.epsilon;
     ++training_orders_;

@@ -37,7 +37,8 @@ int LearnerThreads(const proto::Run& run);
 
 class Trainer {
  public:
-  /// `threads` (>= 1) share each update; their number changes no bit.
+  /// `threads` (>= 1) share each update; their number changes no bit. Throws as Experiment::FirstParameters
+  /// does.
   Trainer(const Experiment& experiment, TrainerOutput output, int threads = 1);
 
   /// Starts a new training: hands out version 0 of both networks and the first orders. Call either Begin or
@@ -74,6 +75,10 @@ class Trainer {
   bool IsBetter(const Evaluation& a, const Evaluation& b) const;
   void ComputeLeastValues(const Episode& episode);
   void BeginInserting(const Episode& episode, int transition);
+  void Observe(const Episode& episode, int state);
+  std::span<float> Observation(int state) {
+    return observations_[static_cast<size_t>(state) % observations_.size()];
+  }
   void Insert(const Episode& episode, int transition);
   void UpdateOnce();
   void CopyToTarget();
@@ -101,9 +106,8 @@ class Trainer {
   EpisodeHistory history_;  // the episodes whose transitions are in the replay memory
   MiniBatch batch_;
   Dqn dqn_;
-  std::vector<float> observation_;  // of the next transition to insert
-  std::vector<float> next_observation_;
-  std::vector<float> least_values_;  // lower bounds of Q*, by transition of the episode
+  std::vector<std::vector<float>> observations_;  // a ring of those of the latest states
+  std::vector<float> least_values_;               // lower bounds of Q*, by transition of the episode
   TrainerProgress progress_;
   int64_t training_orders_ = 0;       // training orders written so far
   int64_t evaluation_orders_ = 0;     // evaluation orders written so far

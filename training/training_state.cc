@@ -123,6 +123,9 @@ void Trainer::CheckOrders(const TrainingState& state) const {
                0 <= updates_at_writing && updates_at_writing <= progress.updates,
            fmt::format("order {} names versions {} and {} after {} updates", order.index,
                        order.current_version, order.target_version, updates_at_writing));
+    Expect(SearchFits(order, experiment_.schedule(), experiment_.world().longest_episode()),
+           fmt::format("order {} has a search of width {} from transition {} on", order.index,
+                       order.search_width, order.search_from));
     current = order.current_version;
     target = order.target_version;
     training += order.kind == OrderKind::kTrain;

@@ -37,6 +37,15 @@ TEST_F(ActorOrders, GiveWholeEpisodesWithTheBitsOfAFlyer) {
   EXPECT_EQ(status.open_orders, 0);
 }
 
+TEST_F(ActorOrders, ThatSearchInARunWithoutSearchesAreCountedAndIgnored) {
+  BeginRun();
+  std::vector<order_t> orders = Orders(0, 2);
+  orders[0].search_width = 5;
+  SendAndFly(orders);
+  ExpectEpisodes(0, {1});
+  EXPECT_EQ(actor_.totals().rejected.total(), 1);
+}
+
 TEST_F(ActorOrders, WaitForRoom) {
   BeginRun();
   learner_.SendOrders(Orders(0, 12));

@@ -47,7 +47,7 @@ struct Experience {
       AppendMask(recorder.mask(), mask);
       const Episode& episode = recorder.episode();
       memory.Insert({observation, next_observation, episode.actions.back(), episode.rewards.back(),
-                     episode.ending == Ending::kTerminal, mask});
+                     episode.ending == Ending::kTerminal ? 0.0f : 0.99f, mask});
       crc = Crc32c(std::as_bytes(std::span(next_observation)), crc);
       observation.swap(next_observation);
     }
@@ -63,7 +63,7 @@ std::string NumbersOf(const World& world) {
   const Experience experience(world);
   const auto network =
       std::make_shared<Mlp>(MlpShape({world.description().observation_size, 40, 32, world.actions()}));
-  Dqn dqn(network, network->InitialParameters(1), {true, 0.99f, kBatchSize, {}}, 2);
+  Dqn dqn(network, network->InitialParameters(1), {true, kBatchSize, {}}, 2);
   MiniBatch batch(network->inputs(), network->outputs(), kBatchSize);
   for (uint32_t update = 0; update < kUpdates; ++update) {
     RandomStream stream(1, RandomPurpose::kReplaySampling, update, 0);

@@ -116,7 +116,6 @@ class LearnerUpdate {
       : shape_(ShapeOf(experiment)),
         dqn_(experiment.network(), experiment.network()->InitialParameters(experiment.schedule().seed()),
              {experiment.agent().double_dqn(),
-              static_cast<float>(experiment.agent().discount()),
               experiment.agent().batch_size(),
               {experiment.agent().adam().beta1(), experiment.agent().adam().beta2(),
                experiment.agent().adam().epsilon()}}),
@@ -124,13 +123,13 @@ class LearnerUpdate {
                experiment.agent().batch_size()) {}
 
   double Update(const Array<float>& observations, const Array<int16_t>& actions, const Array<float>& rewards,
-                const Array<float>& next_observations, const Array<bool>& terminal,
+                const Array<float>& next_observations, const Array<float>& discounts,
                 const Array<bool>& next_masks, const Array<float>& least_values, double learning_rate) {
     Fill(observations, batch_.observations.data(), batch_.observations.size());
     Fill(next_observations, batch_.next_observations.data(), batch_.next_observations.size());
     Fill(actions, batch_.actions.data(), batch_.size());
     Fill(rewards, batch_.rewards.data(), batch_.size());
-    Fill(terminal, batch_.terminal.data(), batch_.size());
+    Fill(discounts, batch_.discounts.data(), batch_.size());
     Fill(next_masks, batch_.next_masks.data(), static_cast<int64_t>(batch_.next_masks.size()));
     Fill(least_values, batch_.least_values.data(), batch_.size());
     return dqn_.Update(batch_, learning_rate);

@@ -92,7 +92,7 @@ class Peer(unittest.TestCase):
             rate = 1e-3 / (1 + update)
             loss = learner.update(
                 rows[:, columns.observation].copy(), rows[:, columns.action].astype(np.int16),
-                rows[:, columns.reward].copy(), rows[:, columns.next_observation].copy(), terminal, masks,
+                rows[:, columns.reward].copy(), rows[:, columns.next_observation].copy(), rows[:, columns.discount].copy(), masks,
                 rows[:, columns.least].copy(), rate)
             self.assertAlmostEqual(peer.update(torch.from_numpy(rows), rate).item() / loss, 1, 4)
             if update % 8 == 7:

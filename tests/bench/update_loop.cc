@@ -22,7 +22,8 @@ UpdateLoop::UpdateLoop(std::shared_ptr<const Network> network, const DqnOptions&
     }
     memory_.Insert({observation, next_observation,
                     static_cast<int16_t>(stream.NextBelow(static_cast<uint32_t>(network->outputs()))),
-                    static_cast<float>(-stream.NextUniform()), stream.NextBelow(69) == 0, mask});
+                    static_cast<float>(-stream.NextUniform()), stream.NextBelow(69) == 0 ? 0.0f : 1.0f,
+                    mask});
   }
 }
 

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -18,20 +19,25 @@ agent { hidden_layers: [16] double_dqn: true batch_size: 16 replay_capacity: 200
 schedule { episodes: 400 inserts_per_update: 4 minimum_replay_size: 200 window: 8 updates_per_version: 20
   versions_per_evaluation: 5 evaluation_episodes: 5 ladder { base: 0.3 exponent: 3 } }
 """
-# Few sensors over a small grid, all of it drawn.
+# Few sensors over a small grid, all of it drawn. Half of the orders search.
 FIELDS = """scenario { grid { columns: 6 rows: 6 } slots: 16 start { column: 0 row: 0 } stop { column: 3 row: 5 }
   random_sensors { per_episode: true minimum: 1 maximum: 3 }
   random_field { coverage_radius_m { minimum: 25 maximum: 50 } slots { minimum: 12 maximum: 16 } any_start: true
     weight { minimum: 0.5 maximum: 2 } } }
-agent { hidden_layers: [32] batch_size: 32 replay_capacity: 5000 target_update_period: 50 safe_action_mask: true
-  coverage_mask: true flown_return_bound: true linear { initial: 5e-3 final: 1e-4 } }
+agent { set_network { encoder_layers: [16] trunk_layers: [16] head_layers: [16] } batch_size: 32 replay_capacity: 5000
+  target_update_period: 50 safe_action_mask: true coverage_mask: true flown_return_bound: true n_step: 3 discount: 0.95
+  linear { initial: 5e-3 final: 1e-4 } }
 schedule { episodes: 600 inserts_per_update: 4 minimum_replay_size: 200 window: 8 updates_per_version: 50
-  versions_per_evaluation: 10 evaluation_episodes: 10 excursion_share: 0.3 ladder { base: 0.3 exponent: 3 } }
+  versions_per_evaluation: 10 evaluation_episodes: 10 excursion_share: 0.3 ladder { base: 0.3 exponent: 3 }
+  search { width: 4 } }
 """
+# One of these fields.
+FIELD = FIELDS.replace("random_sensors { per_episode: true minimum: 1 maximum: 3 }",
+                       "sensor { x_m: 10 y_m: 110 } sensor { x_m: 100 y_m: 30 weight: 2 } }").split("  random_field")[0] + (
+                           "agent" + FIELDS.split("agent")[1].replace("evaluation_episodes: 10", ""))
 # The same over a map, which is a picture beside the configuration.
 TOWN = FIELDS.replace("grid { columns: 6 rows: 6 }", 'map: "town.png"').replace(
-    "start { column: 0 row: 0 } stop { column: 3 row: 5 }", "").replace("hidden_layers: [32]", """set_network {
-    encoder_layers: [16] trunk_layers: [16] head_layers: [16] }""")
+    "start { column: 0 row: 0 } stop { column: 3 row: 5 }", "")
 TOWN_TEXT = """....SS
 .BB.N.
 .BB.N.
@@ -95,6 +101,44 @@ class Worlds(FrescoTest):
         figures = json.loads(self.run_fresco("evaluate", "--policy", self.folder / "one", "--episodes", 20, "--format",
                                              "json")[0])
         self.assertEqual(len({episode["total_aoi"] for episode in figures["episodes"]} - {None}) > 10, True)
+
+        self.check_start_from(self.folder / "one")
+
+    def check_start_from(self, general):
+        """The training of one field begins with the network for many."""
+        config = self.folder / "field.textproto"
+        config.write_text(FIELD)
+        start = ("--start-from", general)
+        one = self.train(17667, "field-1", "--actors", 1, *start, config=config)
+        three = self.train(17667, "field-3", "--actors", 3, "--record", *start, config=config)
+        anew = self.train(17667, "anew", "--actors", 2, config=config)
+        for key in ("weights_crc32c", "config_hash", "total_aoi"):
+            self.assertEqual(three[key], one[key], key)
+        self.assertNotEqual(anew["weights_crc32c"], one["weights_crc32c"])
+        self.assertNotEqual(anew["config_hash"], one["config_hash"])
+        log = self.folder / "field-3" / "traffic.lcm"
+        _, errors = self.run_fresco("retrain", log, "--out", self.folder / "no", expect=2)
+        self.assertRegex(errors, "agent.start_crc32c: expected the network .* found none; name it with --start-from")
+        _, errors = self.run_fresco("retrain", log, "--start-from", self.folder / "anew", "--out", self.folder / "other",
+                                    "--set", "schedule.episodes=20")
+        again = json.loads(self.run_fresco("retrain", log, "--strict", *start, "--out", self.folder / "field-again",
+                                           "--format", "json")[0])
+        self.assertEqual(again["weights_crc32c"], one["weights_crc32c"])
+        self.assertEqual(again["retrain"]["different_versions"], 0)
+        # An interrupted run whose checkpoint is lost begins with the same network.
+        (self.folder / "field-1" / "summary.json").unlink()
+        shutil.rmtree(self.folder / "field-1" / "checkpoints", ignore_errors=True)
+        resumed = json.loads(self.run_fresco("train", "--resume", self.folder / "field-1", "--format", "json")[0])
+        self.assertEqual(resumed["weights_crc32c"], one["weights_crc32c"])
+        # A network of another size, and a network that was replaced.
+        _, errors = self.run_fresco("train", "--config", config, *start, "--set", "agent.set_network.head_layers=8",
+                                    "--out", self.folder / "no", expect=2)
+        self.assertRegex(errors, r"--start-from: expected a network with layers of .* \(agent.set_network\)")
+        (self.folder / "field-1" / "summary.json").unlink()
+        shutil.rmtree(self.folder / "field-1" / "checkpoints", ignore_errors=True)
+        (self.folder / "field-1" / "start.network").write_bytes((self.folder / "anew" / "best.network").read_bytes())
+        _, errors = self.run_fresco("train", "--resume", self.folder / "field-1", expect=2)
+        self.assertRegex(errors, "start.network: expected the network with CRC-32C")
 
     def test_gives_the_same_weights_over_a_map(self):
         config = self.folder / "town.textproto"

@@ -47,6 +47,8 @@ TEST(Wire, EncodesAnOrderAsLcmsFormatSays) {
   order.index = 0x0102;
   order.kind = OrderKind::kEvaluate;
   order.epsilon = 0.5;
+  order.search_width = 5;
+  order.search_from = 6;
   order.seed = 7;
   order.current_version = 3;
   order.target_version = 4;
@@ -54,9 +56,9 @@ TEST(Wire, EncodesAnOrderAsLcmsFormatSays) {
   Bytes bytes(static_cast<size_t>(wire.getEncodedSize()));
   ASSERT_EQ(wire.encode(bytes.data(), 0, static_cast<int>(bytes.size())), static_cast<int>(bytes.size()));
   // Big-endian, in the order of the fields, behind eight bytes of the type's fingerprint.
-  const std::vector<int> expected = {0,    0, 0, 0, 0, 0, 1,    2,    0, 0, 0, 0, 0, 0, 0,
-                                     0x0A, 0, 0, 0, 2, 1, 0x3F, 0xE0, 0, 0, 0, 0, 0, 0, 0,
-                                     0,    0, 0, 0, 0, 0, 7,    0,    0, 0, 3, 0, 0, 0, 4};
+  const std::vector<int> expected = {0, 0, 0, 0,    0,    0, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0x0A, 0, 0,
+                                     0, 2, 1, 0x3F, 0xE0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 0,    0, 0,
+                                     6, 0, 0, 0,    0,    0, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0,    4};
   ASSERT_EQ(bytes.size(), 8 + expected.size());
   for (size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(static_cast<int>(bytes[8 + i]), expected[i]) << i;

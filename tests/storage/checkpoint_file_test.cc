@@ -24,8 +24,8 @@ class CheckpointFile : public ::testing::Test {
                     0xfeedu, -5} {
     TrainingState& training = checkpoint_.training;
     training.progress = {11, 10, 700, 650, 690, 6, 2, 0.25, 1e-3, 0.5, 12.5, true};
-    training.orders = {{{11, OrderKind::kEvaluate, 0, 9, 6, 2}, 640},
-                       {{12, OrderKind::kTrain, 0.125, 9, 6, 2}, 650}};
+    training.orders = {{{11, OrderKind::kEvaluate, 0, 0, 0, 9, 6, 2}, 640},
+                       {{12, OrderKind::kTrain, 0.125, 16, 3, 9, 6, 2}, 650}};
     training.versions = {{{NetworkKind::kCurrent, 6}, 600, Shared(1)},
                          {{NetworkKind::kTarget, 2}, 600, Shared(2)}};
     training.current = Parameters(3);
@@ -45,12 +45,8 @@ class CheckpointFile : public ::testing::Test {
 
   /// Two transitions of two fields; the last state has a value like any other.
   static Episode Truncated() {
-    return {9,
-            Ending::kTruncated,
-            {0, -1.5f, 1e-30f, 3.25f, -3e38f, 7},
-            {0, 32767},
-            {-0.0f, 0.5f},
-            {0xff, 0x01, 0x80, 0x00}};
+    return {9,          Ending::kTruncated, {0, -1.5f, 1e-30f, 3.25f, -3e38f, 7},
+            {0, 32767}, {-0.0f, 0.5f},      {0xff, 0x01, 0x80, 0x00}};
   }
   static Episode Terminal() { return {8, Ending::kTerminal, {1, 2, 3, 4}, {19}, {-2}, {0x03, 0x04}}; }
 
@@ -161,9 +157,9 @@ TEST_F(CheckpointFile, HoldsOnlySeedsAndActionsOfARepeatableWorld) {
   EXPECT_TRUE(SameBits(*read.replay[0], episode));
   EXPECT_EQ(read.replay[0]->seed, 7u);
   for (const auto& change : std::vector<std::function<void(Episode&)>>{
-           [](Episode& changed) { changed.actions.pop_back(); },        // it has not ended yet
-           [](Episode& changed) { changed.actions.push_back(1); },      // it had ended before
-           [](Episode& changed) { changed.actions.front() = 2; }}) {    // there is no such action
+           [](Episode& changed) { changed.actions.pop_back(); },      // it has not ended yet
+           [](Episode& changed) { changed.actions.push_back(1); },    // it had ended before
+           [](Episode& changed) { changed.actions.front() = 2; }}) {  // there is no such action
     Episode changed = episode;
     change(changed);
     checkpoint.training.replay = {std::make_shared<const Episode>(changed)};

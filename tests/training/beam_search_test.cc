@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "planner/planner.h"
@@ -108,6 +109,21 @@ TEST(BeamSearch, IsAFunctionOfSeedAndWidthOnly) {
       EXPECT_EQ(Search(experiment, seed, 6), first[seed]);
       ReturnOf(experiment, seed, first[seed]);
     }
+  }
+}
+
+TEST(BeamSearch, GoesOnBehindTheFirstActions) {
+  const Experiment experiment = TinyField();
+  const Episode flown = FlyGreedily(experiment, 0, Parameters(experiment));
+  for (size_t first = 0; first < flown.actions.size(); ++first) {
+    std::vector<int16_t> actions(flown.actions.begin(), flown.actions.begin() + static_cast<int64_t>(first));
+    BeamSearch search(experiment, 3000);
+    search.Begin(0, Parameters(experiment), actions);
+    while (search.Step()) {
+    }
+    const std::vector<int16_t> found = search.BestActions();
+    EXPECT_TRUE(std::equal(actions.begin(), actions.end(), found.begin()));
+    EXPECT_NEAR(ReturnOf(experiment, 0, found), BestReturn(experiment, actions), 1e-6) << first;
   }
 }
 

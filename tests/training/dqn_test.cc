@@ -22,7 +22,6 @@ namespace {
 
 const std::vector<int> kLayers = {3, 6, 4};
 constexpr int kBatch = 8;
-constexpr double kDiscount = 0.9;
 
 Doubles Forward(const Doubles& parameters, const Matrix& inputs, int column) {
   const float* first = inputs.col(column).data();
@@ -33,7 +32,7 @@ double LiteralTarget(const Doubles& current, const Doubles& target, const MiniBa
                      bool double_dqn) {
   const auto i = static_cast<size_t>(column);
   const double least = static_cast<double>(batch.least_values[i]);
-  if (batch.terminal[i] != 0) {
+  if (batch.discounts[i] == 0) {
     return std::max(least, static_cast<double>(batch.rewards[i]));
   }
   const Doubles values = Forward(target, batch.next_observations, column);
@@ -46,8 +45,8 @@ double LiteralTarget(const Doubles& current, const Doubles& target, const MiniBa
       best = action;
     }
   }
-  return std::max(least,
-                  static_cast<double>(batch.rewards[i]) + kDiscount * values[static_cast<size_t>(best)]);
+  return std::max(least, static_cast<double>(batch.rewards[i]) +
+                             static_cast<double>(batch.discounts[i]) * values[static_cast<size_t>(best)]);
 }
 
 double LiteralLoss(const Doubles& parameters, const Doubles& targets, const MiniBatch& batch) {
@@ -71,7 +70,7 @@ MiniBatch RandomBatch(RandomStream& stream) {
     }
     batch.actions[i] = static_cast<int16_t>(stream.NextBelow(4));
     batch.rewards[i] = static_cast<float>(-stream.NextUniform());
-    batch.terminal[i] = column == 2 ? 1 : 0;
+    batch.discounts[i] = column == 2 ? 0.0f : 0.9f / static_cast<float>(1 + column % 2);
     if (column % 3 == 0) {  // one that never decides, one that always does, one in between
       batch.least_values[i] = static_cast<float>(column) - 3;
     }
@@ -96,7 +95,6 @@ class DqnTest : public ::testing::TestWithParam<bool> {
   static DqnOptions Options() {
     DqnOptions options;
     options.double_dqn = GetParam();
-    options.discount = static_cast<float>(kDiscount);
     options.batch_size = kBatch;
     return options;
   }
@@ -154,7 +152,7 @@ TEST_P(DqnTest, FirstStepFollowsTheSignOfTheLiteralGradient) {
 
 TEST_P(DqnTest, LearnsAFixedBatch) {
   MiniBatch batch = RandomBatch(stream_);
-  std::fill(batch.terminal.begin(), batch.terminal.end(), 1);
+  std::fill(batch.discounts.begin(), batch.discounts.end(), 0.0f);
   const double first = dqn_.Update(batch, 1e-2);
   double last = first;
   for (int i = 0; i < 2000; ++i) {
@@ -185,7 +183,7 @@ MiniBatch WideBatch(int inputs, int actions, int size, RandomStream& stream) {
     const auto i = static_cast<size_t>(column);
     batch.actions[i] = static_cast<int16_t>(stream.NextBelow(static_cast<uint32_t>(actions)));
     batch.rewards[i] = static_cast<float>(-stream.NextUniform());
-    batch.terminal[i] = stream.NextBelow(10) == 0 ? 1 : 0;
+    batch.discounts[i] = stream.NextBelow(10) == 0 ? 0 : 1;
   }
   std::fill(batch.next_masks.begin(), batch.next_masks.end(), uint8_t{1});
   return batch;
@@ -239,7 +237,7 @@ class TrainingAllocations : public DqnOfNetworks {
         observation_(kInputs, 0.5f),
         mask_(3, 0xff) {}
 
-  void Insert() { memory_.Insert({observation_, observation_, 3, -1, false, mask_}); }
+  void Insert() { memory_.Insert({observation_, observation_, 3, -1, 1, mask_}); }
   void Sample(uint32_t update) {
     RandomStream stream(1, RandomPurpose::kReplaySampling, update, 0);
     memory_.Sample(stream, batch_);

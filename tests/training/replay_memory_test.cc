@@ -33,7 +33,7 @@ void InsertTransition(int k, ReplayMemory& memory) {
     }
   }
   memory.Insert({observation, next_observation, static_cast<int16_t>(k % kActions), value * 0.5f - 3,
-                 k % 4 == 3, mask, value - 100});
+                 value / 8, mask, value - 100});
 }
 
 ReplayMemory MemoryOf(int transitions, int64_t capacity) {
@@ -86,7 +86,7 @@ TEST(ReplayMemory, GivesBackWhatWasInserted) {
               Vector::Map(std::vector{-value, 1 / (value + 1), value * value}.data(), 3));
     EXPECT_EQ(batch.actions[i], k % kActions);
     EXPECT_EQ(batch.rewards[i], value * 0.5f - 3);
-    EXPECT_EQ(batch.terminal[i], k % 4 == 3 ? 1 : 0);
+    EXPECT_EQ(batch.discounts[i], value / 8);
     for (int action = 0; action < kActions; ++action) {
       EXPECT_EQ(batch.next_mask(column)[static_cast<size_t>(action)], AllowedAfter(k, action) ? 1 : 0);
     }
@@ -152,7 +152,7 @@ TEST(ReplayMemory, OverwritesAllOfABatch) {
   EXPECT_EQ(used.next_observations, fresh.next_observations);
   EXPECT_EQ(used.actions, fresh.actions);
   EXPECT_EQ(used.rewards, fresh.rewards);
-  EXPECT_EQ(used.terminal, fresh.terminal);
+  EXPECT_EQ(used.discounts, fresh.discounts);
   EXPECT_TRUE(used.next_masks == fresh.next_masks);
 }
 
@@ -167,8 +167,8 @@ TEST(ReplayMemoryDeathTest, ChecksTheSizesOfATransition) {
   const std::vector<float> longer(kInputs + 1);
   const std::vector<uint8_t> mask(2);
   const std::vector<uint8_t> shorter(1);
-  EXPECT_DEATH(memory.Insert({longer, observation, 0, 0, false, mask}), "observation.size");
-  EXPECT_DEATH(memory.Insert({observation, observation, 0, 0, false, shorter}), "next_mask.size");
+  EXPECT_DEATH(memory.Insert({longer, observation, 0, 0, 1, mask}), "observation.size");
+  EXPECT_DEATH(memory.Insert({observation, observation, 0, 0, 1, shorter}), "next_mask.size");
 }
 
 /// An episode of so many transitions, with nothing in it but a number to know it by.

@@ -25,7 +25,7 @@ class LiteralCartPoleTraining {
       : world_(&experiment.world()),
         bootstraps_(bootstraps),
         dqn_(experiment.network(), experiment.network()->InitialParameters(kCartPoleSeed),
-             {true, 0.99f, kBatch, {0.9, 0.999, 1e-8}}) {}
+             {true, kBatch, {0.9, 0.999, 1e-8}}) {}
 
   void Take(const Episode& episode) {
     for (size_t i = 0; i < episode.actions.size(); ++i) {
@@ -71,7 +71,7 @@ class LiteralCartPoleTraining {
       batch.next_observations.col(column) = row.next_observation;
       batch.actions[i] = row.action;
       batch.rewards[i] = 1;
-      batch.terminal[i] = row.terminal ? 1 : 0;
+      batch.discounts[i] = row.terminal ? 0.0f : 0.99f;
       batch.least_values[i] = -std::numeric_limits<float>::infinity();
       batch.next_masks[2 * i] = batch.next_masks[2 * i + 1] = 1;
     }

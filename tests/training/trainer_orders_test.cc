@@ -68,6 +68,37 @@ TEST(TrainerOrders, CarryASeedOfTheirOwnForEveryTrainingEpisode) {
   EXPECT_FALSE(seeds.contains(other.orders.front().seed));
 }
 
+TEST(TrainerOrders, SearchAsOftenAsTheScheduleSaysAndMostlyFromEarlyOn) {
+  const Experiment experiment =
+      SmallExperiment({{"schedule.search.share", "0.25"}, {"schedule.search.width", "3"}});
+  constexpr int kDraws = 20000;
+  constexpr int kLongest = 10;
+  std::vector<int> count(kLongest);
+  for (int64_t episode = 0; episode < kDraws; ++episode) {
+    if (const auto from = SearchedFrom(experiment.schedule(), episode, kLongest)) {
+      ++count.at(static_cast<size_t>(*from));
+    }
+  }
+  // By hand: the product of two uniform numbers is below x with probability x - x log x.
+  const auto below = [](double x) { return x > 0 ? x - x * std::log(x) : 0; };
+  for (int from = 0; from < kLongest; ++from) {
+    const double expected = 0.25 * (below((from + 1) / 10.0) - below(from / 10.0));
+    EXPECT_NEAR(count[static_cast<size_t>(from)], kDraws * expected, 5 * std::sqrt(kDraws * expected))
+        << from;
+  }
+}
+
+TEST(TrainerOrders, SearchOnlyIfTheyAreForTraining) {
+  RecordedRun run(Settings{{"schedule.search.share", "1"}, {"schedule.search.width", "3"}});
+  run.Finish();
+  for (const Order& order : run.orders) {
+    EXPECT_EQ(order.search_width, order.kind == OrderKind::kTrain ? 3 : 0);
+    EXPECT_TRUE(SearchFits(order, run.experiment.schedule(), run.experiment.world().longest_episode()));
+  }
+  RecordedRun without;
+  EXPECT_EQ(without.orders.front().search_width, 0);
+}
+
 TEST(TrainerOrders, KeepTheWindowFullOfTrainingOrdersUntilTheseRunOut) {
   RecordedRun run;
   EXPECT_EQ(run.orders_at_begin, static_cast<size_t>(kWindow));

@@ -78,6 +78,14 @@ TEST(TrainerResume, GivesTheSameWeightsFromEveryEpisodeOn) {
   ExpectTheSameFromEverywhere(SmallExperiment(), 1);
 }
 
+TEST(TrainerResume, GivesTheSameWeightsWithNStepTargetsOfEpisodesThatWereSearched) {
+  ExpectTheSameFromEverywhere(SmallExperiment({{"agent.n_step", "4"},
+                                               {"agent.discount", "0.9"},
+                                               {"schedule.search.share", "0.5"},
+                                               {"schedule.search.width", "4"}}),
+                              5);
+}
+
 TEST(TrainerResume, GivesTheSameWeightsWithBoundsFromWholeEpisodesAndPlainDqn) {
   ExpectTheSameFromEverywhere(SmallExperiment({{"agent.flown_return_bound", "true"},
                                                {"agent.double_dqn", "false"},
@@ -231,7 +239,9 @@ TEST_F(TrainerResumeRefusal, NamesEvaluationsThatAreNone) {
         state.partial_evaluation = {1, 0, {1, 2, 3}, {1}};
       },  // one episode is all of it
       [](TrainingState& state) { state.partial_evaluation.figures = {1}; },
-      [](TrainingState& state) { state.partial_evaluation.scores = {1, 2, 3}; },
+      [](TrainingState& state) {
+        state.partial_evaluation.scores = {1, 2, 3};
+      },
       [](TrainingState& state) { state.partial_evaluation.successes = -1; },
       [](TrainingState& state) { state.partial_evaluation.episodes = -1; },
       [](TrainingState& state) { state.last_evaluation->figures.pop_back(); },

@@ -5,22 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "tests/training/literal_run.h"
+#include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/flight.h"
 
 namespace fresco {
 namespace {
-
-/// The state as its fields, in the order of UavWorld's description.
-std::vector<float> FieldsOf(const UavState& state) {
-  std::vector<float> fields = {static_cast<float>(state.cell.column), static_cast<float>(state.cell.row),
-                               static_cast<float>(state.time_margin), state.energy_margin_j};
-  fields.insert(fields.end(), state.aoi.begin(), state.aoi.end());
-  return fields;
-}
 
 /// Algorithm 1 as a loop: every committed transition in one list, the newest 300 drawn from.
 class LiteralTraining {
@@ -29,26 +23,21 @@ class LiteralTraining {
       : run_(&run),
         flown_return_bound_(flown_return_bound),
         dqn_(run.experiment.network(), run.experiment.network()->InitialParameters(5),
-             {true, 1.0f, kBatch, {0.9, 0.999, 1e-8}}) {}
+             {true, kBatch, {0.9, 0.999, 1e-8}}) {}
 
   void Take(const Episode& episode) {
-    UavEnvironment environment(world_);
-    environment.Reset();
-    for (const int16_t action : episode.actions) {
-      Row row;
-      row.observation = Input(environment);
-      row.action = action;
-      row.reward = static_cast<float>(environment.Step(world_.ActionAt(action)).reward);
-      row.next_observation = Input(environment);
-      row.terminal = environment.outcome() != Outcome::kFlying;
-      row.next_mask.resize(static_cast<size_t>(run_->world.actions()));
-      environment.WriteMask({true, true}, row.next_mask);
-      if (flown_return_bound_) {
-        const auto later = episode.rewards.size() - static_cast<size_t>(environment.state().slot - 2);
-        row.least_value = static_cast<float>(  // the last first, so that the bits are the same
-            std::accumulate(episode.rewards.rbegin(), episode.rewards.rbegin() + static_cast<int64_t>(later),
-                            0.0));
+    const std::vector<Row> rows = RowsOf(episode);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      const size_t last = std::min(i + n_step_, rows.size()) - 1;  // of the transitions that row i stands for
+      Row row = rows[i];
+      row.next_observation = rows[last].next_observation;
+      row.next_mask = rows[last].next_mask;
+      double reward = 0;
+      for (size_t k = i; k <= last; ++k) {
+        reward += std::pow(gamma_, k - i) * static_cast<double>(rows[k].reward);
       }
+      row.reward = static_cast<float>(reward);
+      row.discount = rows[last].discount == 0 ? 0 : static_cast<float>(std::pow(gamma_, last - i + 1));
       rows_.push_back(row);
       if (rows_.size() >= 40 && rows_.size() % 2 == 0) {
         Update();
@@ -65,10 +54,35 @@ class LiteralTraining {
     Vector next_observation;
     int16_t action = 0;
     float reward = 0;
-    bool terminal = false;
+    float discount = 1;
     std::vector<uint8_t> next_mask;
     float least_value = -std::numeric_limits<float>::infinity();
   };
+
+  /// The transitions of an episode, one by one.
+  std::vector<Row> RowsOf(const Episode& episode) const {
+    std::vector<Row> rows;
+    UavEnvironment environment(world_);
+    environment.Reset();
+    for (const int16_t action : episode.actions) {
+      Row row;
+      row.observation = Input(environment);
+      row.action = action;
+      row.reward = static_cast<float>(environment.Step(world_.ActionAt(action)).reward);
+      row.next_observation = Input(environment);
+      row.discount = environment.outcome() == Outcome::kFlying ? 1 : 0;
+      row.next_mask.resize(static_cast<size_t>(run_->world.actions()));
+      environment.WriteMask({true, true}, row.next_mask);
+      if (flown_return_bound_) {
+        const auto later = episode.rewards.size() - static_cast<size_t>(environment.state().slot - 2);
+        row.least_value = static_cast<float>(  // the last first, so that the bits are the same
+            std::accumulate(episode.rewards.rbegin(), episode.rewards.rbegin() + static_cast<int64_t>(later),
+                            0.0));
+      }
+      rows.push_back(row);
+    }
+    return rows;
+  }
 
   Vector Input(const UavEnvironment& environment) const {
     Vector input(inputs_);
@@ -90,7 +104,7 @@ class LiteralTraining {
       batch.next_observations.col(column) = row.next_observation;
       batch.actions[i] = row.action;
       batch.rewards[i] = row.reward;
-      batch.terminal[i] = row.terminal ? 1 : 0;
+      batch.discounts[i] = row.discount;
       batch.least_values[i] = row.least_value;
       std::copy(row.next_mask.begin(), row.next_mask.end(),
                 batch.next_masks.begin() + static_cast<int64_t>(i * row.next_mask.size()));
@@ -107,6 +121,8 @@ class LiteralTraining {
   const NetworkInputOptions options_{run_->experiment.agent().sensor_geometry()};
   NetworkInput network_input_{world_, options_};
   int inputs_ = NetworkInput::Size(world_.sensors(), options_);
+  size_t n_step_ = static_cast<size_t>(run_->experiment.agent().n_step());
+  double gamma_ = run_->experiment.agent().discount();
   bool flown_return_bound_;
   Dqn dqn_;
   std::vector<Row> rows_;
@@ -131,6 +147,22 @@ TEST(Trainer, TrainsOnWhatTheNetworkSeesAsTheLiteralLoopDoes) {
     RecordedRun run(settings);
     ExpectTheWeightsOf(LiteralTraining(run), run);
   }
+}
+
+TEST(Trainer, SumsTheRewardsOfNStepsAsTheLiteralLoopDoes) {
+  for (const char* steps : {"2", "5", "100"}) {  // a power of 1/2 is exact
+    RecordedRun run(Settings{{"agent.n_step", steps}, {"agent.discount", "0.5"}});
+    ExpectTheWeightsOf(LiteralTraining(run), run);
+  }
+}
+
+TEST(Trainer, StartsFromTheParametersThatItIsGiven) {
+  const Experiment experiment = SmallExperiment();
+  const auto start = std::make_shared<const Vector>(experiment.network()->InitialParameters(99));
+  RecordedRun run(experiment.StartingFrom(start));
+  EXPECT_TRUE(run.trainer.current() == *start);
+  EXPECT_TRUE(*run.current_versions.at(0) == *start);
+  EXPECT_TRUE(*run.target_versions.at(0) == *start);
 }
 
 TEST(Trainer, BoundsTargetsByWhatWasFlownAsTheLiteralLoopDoes) {

@@ -24,14 +24,18 @@ final class Orders {
     return order != null && order.kind == EVALUATE;
   }
 
-  /** Returns for example "training, epsilon 0.120, network 56". */
+  /** Returns for example "training, epsilon 0.120, beam of 16 from transition 9 on, network 56". */
   String describe(long runId, long index) {
     order_t order = orders.get(new Key(runId, index));
     if (order == null) {
       return "episode";
     }
-    return order.kind == EVALUATE
-        ? "greedy evaluation of network " + order.current_version
-        : String.format("training, epsilon %.3f, network %d", order.epsilon, order.current_version);
+    if (order.kind == EVALUATE) {
+      return "greedy evaluation of network " + order.current_version;
+    }
+    String search = order.search_width == 0
+        ? ""
+        : String.format("beam of %d from transition %d on, ", order.search_width, order.search_from);
+    return String.format("training, epsilon %.3f, %snetwork %d", order.epsilon, search, order.current_version);
   }
 }
