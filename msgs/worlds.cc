@@ -15,6 +15,7 @@
 #include "msgs/uav_config.h"
 #include "worlds/acrobot/acrobot.h"
 #include "worlds/cartpole/cartpole.h"
+#include "worlds/uav/uav_fields.h"
 
 namespace fresco {
 namespace {
@@ -24,8 +25,8 @@ using Config = proto::ExperimentConfig;
 
 /// What viewers get of a kind of world. The worlds are of this kind.
 struct ViewerMessages {
-  bool (*are_for)(const World&);  // not every world of the kind needs to have them
   std::vector<scenario_t> (*of_world)(const World&);
+  std::vector<scenario_t> (*of_episodes_world)(const World&, const Episode&);
   std::vector<flight_t> (*of_episode)(const World&, const Episode&, const std::string& policy);
 };
 
@@ -44,15 +45,17 @@ std::shared_ptr<const World> Make(const proto::BuiltInWorld& config) {
   return std::make_shared<BuiltIn>(config.maximum_steps());
 }
 
-const UavWorld& Uav(const World& world) {
-  return static_cast<const UavWorld&>(world);
-}
-
 constexpr ViewerMessages kUavMessages = {
-    [](const World& world) { return AsUavWorld(world) != nullptr; },
-    [](const World& world) { return ScenarioMessages(Uav(world)); },
-    [](const World& world, const Episode& flight, const std::string& policy) {
-      return FlightMessages(Uav(world), flight, policy);
+    [](const World& world) {
+      const UavWorld* field = AsUavWorld(world);
+      return field != nullptr ? ScenarioMessages(*field) : std::vector<scenario_t>();
+    },
+    [](const World& world, const Episode& episode) {
+      return ScenarioMessages(*OverItsField(world, episode).field);
+    },
+    [](const World& world, const Episode& episode, const std::string& policy) {
+      const FlightOverField over = OverItsField(world, episode);
+      return FlightMessages(*over.field, over.flight, policy);
     }};
 
 const WorldKind kWorldKinds[] = {
@@ -149,13 +152,17 @@ std::shared_ptr<const World> MakeWorld(const Config& config) {
 }
 
 bool HasFlights(const Experiment& experiment) {
-  const ViewerMessages* messages = KindOf(experiment.config()).viewer_messages;
-  return messages != nullptr && messages->are_for(experiment.world());
+  return KindOf(experiment.config()).viewer_messages != nullptr;
 }
 
 std::vector<scenario_t> ScenarioMessages(const Experiment& experiment) {
   return HasFlights(experiment) ? KindOf(experiment.config()).viewer_messages->of_world(experiment.world())
                                 : std::vector<scenario_t>();
+}
+
+std::vector<scenario_t> ScenarioMessages(const Experiment& experiment, const Episode& episode) {
+  FRESCO_CHECK(HasFlights(experiment));
+  return KindOf(experiment.config()).viewer_messages->of_episodes_world(experiment.world(), episode);
 }
 
 std::vector<flight_t> FlightMessages(const Experiment& experiment, const Episode& episode,

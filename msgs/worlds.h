@@ -34,11 +34,14 @@ std::string CodeOf(const proto::ExperimentConfig& config);
 /// not fit together, or if another part of the configuration asks for what this world does not have.
 std::shared_ptr<const World> MakeWorld(const proto::ExperimentConfig& config);
 
-/// Whether viewers get messages of the experiment's world: of the world itself (FRESCO_SCENARIO) and
-/// of its episodes (FRESCO_FLIGHT).
+/// Whether viewers get messages of the experiment's episodes: of the field (FRESCO_SCENARIO) and of the
+/// flight (FRESCO_FLIGHT).
 bool HasFlights(const Experiment& experiment);
-/// The messages of the world; none if !HasFlights. The caller fills in `utime`, `run_id` and `config_hash`.
+/// The messages of the world's field; none if !HasFlights or every episode has another one. The caller fills
+/// in `utime`, `run_id` and `config_hash`.
 std::vector<scenario_t> ScenarioMessages(const Experiment& experiment);
+/// The messages of the field of an episode. CHECKs HasFlights.
+std::vector<scenario_t> ScenarioMessages(const Experiment& experiment, const Episode& episode);
 /// The messages of an episode, one for each of its states. The caller fills in `utime`, `run_id`,
 /// `config_hash` and `flight`. CHECKs HasFlights.
 std::vector<flight_t> FlightMessages(const Experiment& experiment, const Episode& episode,

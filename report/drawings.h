@@ -16,7 +16,7 @@ struct Drawing {
   bool (*draws)(const World& world);
   std::string_view id;       ///< of the section
   std::string_view heading;  ///< of the section
-  /// The section's content, for at least one episode of a world of this kind.
+  /// The section's content, for at least one episode of a world of this kind. All are of one seed.
   std::string (*html)(const World& world, const std::vector<ReportEpisode>& episodes);
   std::string_view script;    ///< runs when the page is loaded
   std::string_view footnote;  ///< of the page

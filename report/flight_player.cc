@@ -6,6 +6,7 @@
 #include "report/report_html.h"
 #include "report/result_display.h"
 #include "worlds/uav/flight.h"
+#include "worlds/uav/uav_fields.h"
 
 namespace fresco {
 namespace {
@@ -60,13 +61,13 @@ OrderedJson FlightDataJson(const UavWorld& world, const Episode& flight) {
 }
 
 std::string FlightsHtml(const World& any_world, const std::vector<ReportEpisode>& flights) {
-  const UavWorld& world = RequireUavWorld(any_world, "the flight player");
+  const std::shared_ptr<const UavWorld> field = OverItsField(any_world, flights.front().episode).field;
   OrderedJson array = OrderedJson::array();
   for (const ReportEpisode& flight : flights) {
-    array.push_back(FlightDataJson(world, flight.episode));
+    array.push_back(FlightDataJson(*field, OverItsField(any_world, flight.episode).flight));
     array.back()["policy"] = flight.name;
   }
-  const OrderedJson data = {{"world", WorldJson(world)}, {"flights", std::move(array)}};
+  const OrderedJson data = {{"world", WorldJson(*field)}, {"flights", std::move(array)}};
   // Bytes of a name that are not UTF-8 become replacement characters.
   const std::string text = data.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   return FilledTemplate(kPlayerHtml, {{"data", EscapedJson(text)}});
@@ -75,12 +76,7 @@ std::string FlightsHtml(const World& any_world, const std::vector<ReportEpisode>
 }  // namespace
 
 const Drawing kFlightPlayer = {
-    [](const World& world) { return AsUavWorld(world) != nullptr; },
-    "flights",
-    "Flights",
-    FlightsHtml,
-    kPlayerScript,
-    "AoI is age of information, in slots.",
+    HasFlights, "flights", "Flights", FlightsHtml, kPlayerScript, "AoI is age of information, in slots.",
 };
 
 }  // namespace fresco

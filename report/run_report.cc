@@ -6,39 +6,23 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "report/drawings.h"
 #include "report/result_display.h"
+#include "storage/metrics.h"
 #include "storage/network_file.h"
 #include "storage/plans.h"
 #include "storage/policy.h"
 #include "training/flyer.h"
+#include "training/schedules.h"
 
 namespace fresco {
 namespace {
 
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
-
-std::vector<std::string> Split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    cells.push_back(cell);
-  }
-  return cells;
-}
-
-size_t ColumnOf(const std::vector<std::string>& header, const std::string& name, const Path& file) {
-  const auto found = std::find(header.begin(), header.end(), name);
-  if (found == header.end()) {
-    throw UsageError(fmt::format("{}: expected a column {}, found none", file.string(), name));
-  }
-  return static_cast<size_t>(found - header.begin());
-}
 
 std::string Label(const Quantity& quantity) {
   return Title(quantity.name) + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]");
@@ -95,20 +79,22 @@ FinishedRun::FinishedRun(const Path& folder)
 
 std::vector<ReportEpisode> FinishedRun::FlyEpisodes() const {
   std::vector<ReportEpisode> episodes;
-  if (world().description().random) {
+  const bool random = world().description().random;
+  if (random && !experiment_.schedule().fixed_evaluation_episodes()) {
     return episodes;
   }
+  const uint64_t seed = random ? FixedDeliverySeeds(experiment_.schedule()).front() : 0;
   if (std::filesystem::exists(folder_ / "best.network")) {
     const StoredNetwork network = ReadNetworkFile(folder_ / "best.network");
-    episodes.push_back(
-        {"this run (DQN)", FlyGreedily(experiment_, 0, std::make_shared<const Vector>(network.parameters))});
+    episodes.push_back({"this run (DQN)",
+                        FlyGreedily(experiment_, seed, std::make_shared<const Vector>(network.parameters))});
   }
-  const std::vector<uint64_t> seeds = {0};
+  const std::vector<uint64_t> seeds = {seed};
   if (const std::shared_ptr<const Plan> plan = PlansIn(folder_, world(), seeds).front(); plan != nullptr) {
     episodes.push_back({FoundFlightName(plan->optimal), plan->flight});
   }
   for (const ReferencePolicy& policy : world().reference_policies()) {
-    episodes.push_back({policy.title, world().FlyReference(policy.name, 0)});
+    episodes.push_back({policy.title, world().FlyReference(policy.name, seed)});
   }
   return episodes;
 }
@@ -128,17 +114,12 @@ void FinishedRun::ReadLearningCurve() {
   if (!std::filesystem::exists(file)) {
     return;
   }
-  std::istringstream stream(ReadFile(file));
-  std::string line;
-  std::getline(stream, line);
-  const std::vector<std::string> header = Split(line);
-  const size_t updates = ColumnOf(header, "updates", file);
-  const size_t score = ColumnOf(header, score_name, file);
-  const size_t success = ColumnOf(header, description.success, file);
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> cells = Split(line);
-    learning_curve_.points.push_back(
-        {std::stoll(cells.at(updates)), std::stod(cells.at(score)), std::stod(cells.at(success))});
+  const MetricsTable metrics = ParseMetrics(ReadFile(file));
+  const size_t updates = metrics.ColumnOf("updates");
+  const size_t score = metrics.ColumnOf(score_name);
+  const size_t success = metrics.ColumnOf(description.success);
+  for (const std::vector<double>& row : metrics.rows) {
+    learning_curve_.points.push_back({static_cast<int64_t>(row[updates]), row[score], row[success]});
   }
 }
 

@@ -46,10 +46,11 @@ class FinishedRun {
   const World& world() const { return experiment_.world(); }
   /// The text of summary.json.
   const std::string& summary() const { return summary_; }
-  /// In a world without chance, where one episode tells everything about a policy: the episodes of the run's
-  /// best evaluated policy (if there is one), of the optimum or the best that the search found (if there was
-  /// a search), and of the reference policies. Runs the code of the world, of a plug-in too. In a world with
-  /// chance there are none.
+  /// The episodes of the run's best evaluated policy (if there is one), of the optimum or the best that the
+  /// search found (if there was a search), and of the reference policies. Runs the code of the world, of a
+  /// plug-in too. In a world without chance, one episode tells everything about a policy. In one with chance,
+  /// they are of the first seed that judges the delivered version, if schedule.fixed_evaluation_episodes is
+  /// set; otherwise there are none.
   std::vector<ReportEpisode> FlyEpisodes() const;
   /// Has no points if nothing was evaluated.
   const LearningCurve& learning_curve() const { return learning_curve_; }

@@ -8,8 +8,10 @@
 #include <system_error>
 
 #include "core/bytes.h"
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "storage/metrics.h"
 #include "storage/network_file.h"
 #include "storage/plans.h"
 
@@ -17,6 +19,7 @@ namespace fresco {
 namespace {
 
 constexpr char kStartNetwork[] = "start.network";
+constexpr char kEventsFile[] = "events.out.tfevents.fresco";  // TensorBoard looks for files with "tfevents"
 
 std::string MetricsHeader(const WorldDescription& description) {
   std::string header =
@@ -110,6 +113,13 @@ void RunFolder::AddMetrics(const Evaluation& evaluation, const TrainerProgress& 
   }
   metrics_ += '\n';
   writer_.Write({"metrics", directory_ / "metrics.csv", [text = metrics_] { return text; }, {}});
+  writer_.Write(
+      {"lines", directory_ / "metrics.jsonl", [text = metrics_] { return MetricsJsonLines(text); }, {}});
+  const double begin_s = 1e-6 * static_cast<double>(WallMicroseconds()) - wall_s;
+  writer_.Write({"events",
+                 directory_ / kEventsFile,
+                 [text = metrics_, begin_s] { return TensorBoardEvents(text, begin_s); },
+                 {}});
 }
 
 void RunFolder::WriteBest(const BestNetwork& best) {

@@ -1,8 +1,8 @@
-// Writes the files of a run's folder: config.textproto, start.network, metrics.csv, best.network,
-// final.network, optimum.json, summary.json and checkpoints/. Every file is complete at all times. A thread
-// of its own (FileWriter) writes the files that change during the training, so a full disk does not stop the
-// training. LearnerProcess owns one; only its training thread may use it. Only one process at a time may work
-// in a folder; callers make sure of that (core/files.h).
+// Writes the files of a run's folder: config.textproto, start.network, metrics.csv and its other forms
+// (metrics.h), best.network, final.network, optimum.json, summary.json and checkpoints/. Every file is
+// complete at all times. A thread of its own (FileWriter) writes the files that change during the training,
+// so a full disk does not stop the training. LearnerProcess owns one; only its training thread may use it.
+// Only one process at a time may work in a folder; callers make sure of that (core/files.h).
 #pragma once
 
 #include <filesystem>
@@ -43,7 +43,7 @@ class RunFolder {
   const std::filesystem::path& directory() const { return directory_; }
 
   // ---- For use during the training. These functions return at once.
-  /// Adds a line to metrics.csv.
+  /// Adds a line to metrics.csv and its other forms.
   void AddMetrics(const Evaluation& evaluation, const TrainerProgress& progress, double wall_s);
   void WriteBest(const BestNetwork& best);
   void WriteCheckpoint(std::shared_ptr<const Checkpoint> checkpoint);

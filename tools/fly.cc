@@ -25,6 +25,7 @@ namespace {
 
 struct FlyOptions {
   PolicyChoice choice;
+  uint64_t episode_seed = 0;
   double slots_per_s = 5;
   bool loop = false;
   std::string lcm_url;
@@ -38,7 +39,7 @@ class FlightShow {
   FlightShow(const FlownPolicy& flown, const FlyOptions& options, std::unique_ptr<Bus> bus)
       : flown_(flown),
         messages_(FlightMessages(flown.experiment, flown.episode, EpisodeName(flown, options.choice.policy))),
-        field_(ScenarioMessages(flown.experiment)),
+        field_(ScenarioMessages(flown.experiment, flown.episode)),
         bus_(std::move(bus)),
         message_bus_(*bus_),
         channels_(ChannelsWithPrefix(flown.experiment.run().channel_prefix())),
@@ -131,7 +132,7 @@ int FlyOverBus(const FlyOptions& options) {
   const std::string url = options.lcm_url.empty() ? chosen.experiment.run().lcm_url() : options.lcm_url;
   std::unique_ptr<Bus> bus =
       OpenBus(url, options.bus);  // before the search for the optimum, which may take long
-  const FlownPolicy flown = FlyPolicy(options.choice, chosen);
+  const FlownPolicy flown = FlyPolicy(options.choice, chosen, options.episode_seed);
   if (StopSignal::Requested()) {
     return 1;
   }
@@ -154,6 +155,10 @@ void AddFly(CLI::App& app, Command& command) {
   CLI::App* fly =
       app.add_subcommand("fly", "Fly one episode greedily and publish it slot by slot over LCM, for viewers");
   AddPolicyOptions(*fly, options->choice);
+  fly->add_option(
+      "--episode-seed", options->episode_seed,
+      "If every episode has a field of its own: the seed that draws it, as `evaluate --format json` "
+      "prints it; default: 0");
   fly->add_option("--rate", options->slots_per_s, "Slots a second")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1000.0));

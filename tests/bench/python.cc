@@ -52,6 +52,11 @@ MlpShape ShapeOf(const Experiment& experiment) {
     throw UsageError(
         "agent.set_network: expected a flat network (agent.hidden_layers); the peer has no other");
   }
+  if (experiment.agent().n_step() > 1 || experiment.schedule().has_search() ||
+      experiment.agent().has_start_crc32c()) {
+    throw UsageError(
+        "expected agent.n_step 1, no schedule.search and no agent.start_crc32c; the peer has none of them");
+  }
   return MlpShape(experiment.network()->layer_sizes());
 }
 

@@ -56,7 +56,7 @@ TOO_LARGE = [
     (["agent.replay_capacity=100000000", "scenario.random_sensors.count=250", "agent.sensor_geometry=true"],
      # 10,984 bytes a transition: 6,200 as the network sees it, and four times the 1,196 of its episode, since a checkpoint
      # takes three copies.
-     ["agent.replay_capacity: the replay memory needs 740.6 GB"]),
+     ["agent.replay_capacity: the replay memory needs 741.0 GB"]),
     (["run.optimum_memory_mb=1000000"], ["run.optimum_memory_mb: the search for the exact optimum needs 1000.0 GB"]),
     (["schedule.window=4096", "schedule.updates_per_version=1", "schedule.inserts_per_update=1",
       "agent.hidden_layers=2000,2000"], ["schedule.window: the versions of the networks"]),

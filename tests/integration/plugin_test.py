@@ -138,6 +138,8 @@ class Plugin(FrescoTest):
                 f'python {{ object: "pole:None" path: "{PYTHON_WORLDS}" }}': "has no attribute 'None'",
                 f'python {{ object: "pole:CartPole" path: "{PYTHON_WORLDS}" }} agent {{ flown_return_bound: true }}':
                     "chance decides what an episode earns",
+                f'python {{ object: "pole:CartPole" path: "{PYTHON_WORLDS}" }} schedule {{ search {{}} }}':
+                    "schedule.search: set; allowed: omitted, since the environments of the world",
                 f'plugin {{ library: "{EXAMPLE}" }} cartpole {{}}': "another member of oneof",
                 f'plugin {{ library: "{EXAMPLE}" }} agent {{ safe_action_mask: true }}': "safe_action_mask"}.items():
             with self.subTest(world=world):

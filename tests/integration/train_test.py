@@ -1,12 +1,17 @@
 """`fresco train` with real processes over real LCM: the promises of the README."""
+import csv
+import itertools
 import json
 import os
 import re
 import signal
+import struct
 import subprocess
 import sys
+import time
 import unittest
 
+from hostile_packets import crc32c
 from fresco_process import CI_CONFIG, PATIENCE, ROOT, FrescoTest, processes_with, read_log, url, wait_until
 
 SUMMARY_KEYS = {
@@ -15,6 +20,41 @@ SUMMARY_KEYS = {
     "optimal_total_aoi", "gap_percent", "baselines", "bus"}
 
 NO_SEARCH = ("--set", "run.optimum_limit_s=0")  # for the exact optimum
+
+
+def fields_of(message):
+    """The fields of an encoded protobuf message: numbers and values, bytes for what has a length."""
+    def varint():
+        value = shift = 0
+        while True:
+            byte = next(stream)
+            value |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                return value
+
+    stream = iter(message)
+    take = lambda count: bytes(itertools.islice(stream, count))
+    for byte in stream:
+        number, kind = byte >> 3, byte & 7  # all numbers here are small
+        yield number, (varint() if kind == 0 else struct.unpack("<d", take(8))[0] if kind == 1
+                       else take(varint()) if kind == 2 else struct.unpack("<f", take(4))[0])
+
+
+def read_tensorboard(path):
+    """The events of a file as TensorBoard reads it: TFRecords with masked checksums."""
+    def masked(data):
+        crc = crc32c(data)
+        return ((crc >> 15 | crc << 17) + 0xA282EAD8) & 0xFFFFFFFF
+
+    data = path.read_bytes()
+    while data:
+        length, crc = struct.unpack("<QI", data[:12])
+        assert crc == masked(data[:8]), "the checksum of a length"
+        event = data[12:12 + length]
+        assert struct.unpack("<I", data[12 + length:16 + length])[0] == masked(event), "the checksum of an event"
+        data = data[16 + length:]
+        yield dict(fields_of(event))
 
 
 class Train(FrescoTest):
@@ -142,6 +182,29 @@ class Train(FrescoTest):
                               "report.html", "summary.json"},
                              {path.name for path in folder.iterdir()})
         self.assertEqual(processes_with(str(folder)) + processes_with(":17304"), [])
+
+    def test_writes_its_metrics_for_other_tools(self):
+        self.train(17316, "metrics", *NO_SEARCH)
+        folder = self.folder / "metrics"
+        with open(folder / "metrics.csv", newline="") as file:
+            rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+        self.assertGreater(len(rows), 2)
+        self.assertEqual([json.loads(line) for line in (folder / "metrics.jsonl").read_text().splitlines()], rows)
+        first, *events = read_tensorboard(folder / "events.out.tfevents.fresco")
+        self.assertEqual(first[3], b"brain.Event:2")
+        self.assertEqual(len(events), len(rows))
+        for event, row in zip(events, rows):
+            self.assertEqual(event[2], row["updates"])
+            self.assertAlmostEqual(event[1] - first[1], row["wall_s"], places=3)
+            self.assertLess(abs(event[1] - time.time()), 3600)
+            curves = {}
+            for number, value in fields_of(event[5]):
+                self.assertEqual(number, 1)
+                curve = dict(fields_of(value))
+                curves[curve[1].decode()] = curve[2]
+            self.assertEqual(len(curves), len(row) - 2)
+            self.assertEqual(curves["training/loss"], struct.unpack("f", struct.pack("f", row["loss"]))[0])
+            self.assertEqual(curves["evaluation/arrived"], row["arrived"])
 
     def test_goes_on_until_the_optimum_is_proved(self):
         """The training takes a second, the search for eight sensors several."""

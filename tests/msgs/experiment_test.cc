@@ -1,8 +1,11 @@
 #include "msgs/experiment.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/bytes.h"
 #include "tests/msgs/uav_world_of.h"
+#include "tests/support/error_of.h"
 
 namespace fresco {
 namespace {
@@ -67,6 +70,23 @@ TEST(Experiment, HashIsThatOfWhatDecidesTheWeights) {
                                  "cartpole {}", "acrobot {}", "schedule { evaluation_episodes: 2 }"}) {
     EXPECT_NE(Experiment::Parse(text, "a").hash(), hash) << text;
   }
+}
+
+TEST(Experiment, StartsFromRandomParametersOrThoseOfAPolicy) {
+  const Experiment experiment = Experiment::Parse("agent { hidden_layers: [3] }", "a");
+  EXPECT_TRUE(experiment.FirstParameters() == experiment.network()->InitialParameters(1));
+  const auto start = std::make_shared<const Vector>(experiment.network()->InitialParameters(9));
+  const Experiment started = experiment.StartingFrom(start);
+  EXPECT_TRUE(started.FirstParameters() == *start);
+  EXPECT_EQ(started.agent().start_crc32c(), Crc32c(Values(*start)));
+  EXPECT_NE(started.hash(), experiment.hash());
+  EXPECT_EQ(experiment.start(), nullptr);
+  // The text has only the CRC: whoever reads it has to bring the parameters.
+  const Experiment read = Experiment::Parse(started.Text(), "b");
+  EXPECT_EQ(read.hash(), started.hash());
+  EXPECT_THAT(ErrorOf([&] { read.FirstParameters(); }),
+              testing::AllOf(testing::HasSubstr("agent.start_crc32c"), testing::HasSubstr("--start-from")));
+  EXPECT_EQ(read.StartingFrom(start).hash(), started.hash());
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(FieldsOfEpisodes, HaveTheRangesOfTheConfiguration) {
   EXPECT_EQ(world.longest_episode(), 69);
   EXPECT_EQ(world.observation_size(), 7 + 4 * 7);
   EXPECT_TRUE(world.description().random);
-  EXPECT_FALSE(HasFlights(experiment));
+  EXPECT_TRUE(HasFlights(experiment));
   EXPECT_EQ(Configured("scenario { random_sensors { per_episode: true count: 6 } }").world().actions(),
             5 * (1 + 6));
 }

@@ -15,6 +15,7 @@
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/aoi_figures.h"
 #include "worlds/uav/baselines.h"
+#include "worlds/uav/uav_fields.h"
 
 namespace fresco {
 namespace {
@@ -153,6 +154,30 @@ TEST(ScenarioMessages, AreThoseOfTheUavsWorldAndNoneOfAnother) {
   const Experiment other = Experiment::Parse("cartpole {}", "the test");
   EXPECT_FALSE(HasFlights(other));
   EXPECT_TRUE(ScenarioMessages(other).empty());
+}
+
+TEST(FlightMessages, OfAFieldThatTheEpisodeDrewAreThoseOfThatField) {
+  const Experiment drawn = Experiment::Parse(
+      "scenario { random_sensors { per_episode: true minimum: 1 maximum: 4 } "
+      "random_field { coverage_radius_m { minimum: 30 maximum: 90 } any_stop: true } }",
+      "test");
+  ASSERT_TRUE(HasFlights(drawn));
+  EXPECT_TRUE(ScenarioMessages(drawn).empty());  // every episode has another one
+  const UavFields& fields = *AsUavFields(drawn.world());
+  for (const uint64_t seed : {1u, 2u, 3u}) {
+    const UavWorld field(fields.Draw(seed), fields.options());
+    const Episode in_field = field.FlyReference("aoi", 0);
+    const Episode episode = drawn.world().FlyReference("aoi", seed);
+    const std::vector<scenario_t> scenario = ScenarioMessages(drawn, episode);
+    ASSERT_EQ(scenario.size(), 1u);
+    EXPECT_EQ(Encoded(scenario[0]), Encoded(ScenarioMessages(field)[0]));
+    const std::vector<flight_t> messages = FlightMessages(drawn, episode, "aoi");
+    const std::vector<flight_t> expected = FlightMessages(field, in_field, "aoi");
+    ASSERT_EQ(messages.size(), expected.size());
+    for (size_t i = 0; i < messages.size(); ++i) {
+      EXPECT_EQ(Encoded(messages[i]), Encoded(expected[i])) << i;
+    }
+  }
 }
 
 TEST(FlightMessagesDeathTest, AreNotThereInAnotherWorld) {

@@ -69,8 +69,28 @@ TEST_F(RunFolderTest, HasTheFilesOfARunAndNothingElse) {
   EXPECT_TRUE(SameBits(folder.ReadOptimum(std::vector<uint64_t>{0}).front()->flight, plan->flight));
   folder.WriteFinal(Parameters(1), {});
   folder.WriteSummary("{}");
-  EXPECT_EQ(Names(), (std::set<std::string>{"best.network", "config.textproto", "final.network",
-                                            "metrics.csv", "optimum.json", "summary.json"}));
+  EXPECT_EQ(Names(), (std::set<std::string>{"best.network", "config.textproto", "events.out.tfevents.fresco",
+                                            "final.network", "metrics.csv", "metrics.jsonl", "optimum.json",
+                                            "summary.json"}));
+}
+
+TEST_F(RunFolderTest, KeepsTheNetworkWithWhichTheTrainingStarts) {
+  const auto start = std::make_shared<const Vector>(Parameters(9));
+  const Experiment started = experiment_.StartingFrom(start);
+  const RunFolder folder(directory_, started);
+  EXPECT_EQ(Names(), (std::set<std::string>{"config.textproto", "start.network"}));
+  const Experiment read = Experiment::Load(directory_ / "config.textproto");
+  EXPECT_EQ(read.start(), nullptr);
+  const Experiment whole = RunFolder::WithStart(read, directory_);
+  EXPECT_EQ(whole.hash(), started.hash());
+  EXPECT_TRUE(whole.FirstParameters() == *start);
+  // Without such a start nothing is read, and another network is refused.
+  EXPECT_EQ(RunFolder::WithStart(experiment_, directory_).start(), nullptr);
+  WriteFileAtomically(directory_ / "start.network", SerializeNetworkFile({experiment_, 0, 0, Parameters(8)}));
+  EXPECT_THAT(ErrorOf([&] { RunFolder::WithStart(read, directory_); }),
+              testing::AllOf(HasSubstr("start.network"), HasSubstr("expected the network with CRC-32C")));
+  std::filesystem::remove(directory_ / "start.network");
+  EXPECT_EQ(RunFolder::WithStart(read, directory_).start(), nullptr);
 }
 
 TEST_F(RunFolderTest, AddsALineOfMetricsWithEveryEvaluation) {

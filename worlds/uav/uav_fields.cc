@@ -469,4 +469,19 @@ const UavFields* AsUavFields(const World& world) {
   return dynamic_cast<const UavFields*>(&world);
 }
 
+bool HasFlights(const World& world) {
+  return AsUavWorld(world) != nullptr || AsUavFields(world) != nullptr;
+}
+
+FlightOverField OverItsField(const World& world, const Episode& episode) {
+  if (const UavWorld* field = AsUavWorld(world)) {
+    return {{std::shared_ptr<const void>(), field}, episode};
+  }
+  const UavFields* fields = AsUavFields(world);
+  FRESCO_CHECK(fields != nullptr);
+  std::shared_ptr<const UavWorld> field = fields->WorldOf(episode);
+  Episode flight = fields->InItsField(*field, episode);
+  return {std::move(field), std::move(flight)};
+}
+
 }  // namespace fresco

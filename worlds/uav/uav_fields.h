@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "worlds/episode.h"
 #include "worlds/uav/map_input.h"
 #include "worlds/uav/uav_world.h"
 
@@ -108,5 +109,18 @@ class UavFields : public World {
 
 /// The world as UavFields; null if it is another kind of world.
 const UavFields* AsUavFields(const World& world);
+
+/// A flight and the field that it is over.
+struct FlightOverField {
+  std::shared_ptr<const UavWorld> field;
+  Episode flight;  ///< an episode of `field`
+};
+
+/// Whether episodes of the world are flights: it is UavWorld or UavFields.
+bool HasFlights(const World& world);
+
+/// An episode as a flight over its field. The field of UavWorld is the world itself, which must outlive the
+/// result. CHECKs HasFlights.
+FlightOverField OverItsField(const World& world, const Episode& episode);
 
 }  // namespace fresco
