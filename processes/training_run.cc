@@ -41,6 +41,7 @@ void AddCommonArguments(const BusOptions& options, std::vector<std::string>& com
 }  // namespace
 
 void CheckRun(const Experiment& experiment) {
+  experiment.FirstParameters();  // refuses a start that is missing
   SiblingProgram("fresco-learner");
   if (experiment.run().actors() > 0) {
     SiblingProgram("fresco-actor");

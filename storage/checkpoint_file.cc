@@ -17,7 +17,7 @@ namespace fresco {
 namespace {
 
 constexpr char kCheckpointFamily[] = "fresco-checkpoint-";
-constexpr char kCheckpointFormat[] = "fresco-checkpoint-4";
+constexpr char kCheckpointFormat[] = "fresco-checkpoint-5";
 
 /// Returns the checkpoint in the file after checking its format and CRC.
 proto::Checkpoint Unwrap(std::string_view content, const std::string& origin) {

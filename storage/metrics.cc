@@ -92,12 +92,7 @@ std::string MetricsJsonLines(const std::string& metrics_csv) {
   for (const std::vector<double>& row : table.rows) {
     nlohmann::ordered_json object;
     for (size_t column = 0; column < row.size(); ++column) {
-      const auto whole = static_cast<int64_t>(row[column]);
-      if (static_cast<double>(whole) == row[column]) {
-        object[table.names[column]] = whole;
-      } else {
-        object[table.names[column]] = row[column];
-      }
+      object[table.names[column]] = row[column];  // null if it is not finite
     }
     lines += object.dump() + "\n";
   }
@@ -105,9 +100,9 @@ std::string MetricsJsonLines(const std::string& metrics_csv) {
 }
 
 std::string TensorBoardEvents(const std::string& metrics_csv, double begin_s) {
-  constexpr size_t kWallColumn = 0;
-  constexpr size_t kUpdatesColumn = 3;
   const MetricsTable table = ParseMetrics(metrics_csv);
+  const size_t wall_s = table.ColumnOf("wall_s");
+  const size_t updates = table.ColumnOf("updates");
   std::string records;
   proto::TensorBoardEvent first;
   first.set_wall_time(begin_s);
@@ -115,10 +110,10 @@ std::string TensorBoardEvents(const std::string& metrics_csv, double begin_s) {
   AppendRecord(first, records);
   for (const std::vector<double>& row : table.rows) {
     proto::TensorBoardEvent event;
-    event.set_wall_time(begin_s + row[kWallColumn]);
-    event.set_step(static_cast<int64_t>(row[kUpdatesColumn]));
+    event.set_wall_time(begin_s + row[wall_s]);
+    event.set_step(static_cast<int64_t>(row[updates]));
     for (size_t column = 0; column < row.size(); ++column) {
-      if (column != kWallColumn && column != kUpdatesColumn) {
+      if (column != wall_s && column != updates) {
         proto::TensorBoardValue& value = *event.mutable_summary()->add_value();
         value.set_tag((column < kTrainingColumns ? "training/" : "evaluation/") + table.names[column]);
         value.set_simple_value(static_cast<float>(row[column]));

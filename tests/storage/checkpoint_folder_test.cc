@@ -125,7 +125,7 @@ TEST_F(ResumptionTest, TakesTheOneBeforeWhereTheLatestIsTornDamagedForeignOrNewe
   std::string damaged = whole;
   damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
   std::string newer = whole;
-  newer.replace(newer.find("fresco-checkpoint-4"), 19, "fresco-checkpoint-9");
+  newer.replace(newer.find("fresco-checkpoint-5"), 19, "fresco-checkpoint-9");
   for (const std::string& content : {std::string(), whole.substr(0, 1), whole.substr(0, 40),
                                      whole.substr(0, whole.size() / 2), whole.substr(0, whole.size() - 1),
                                      damaged, newer, std::string("P5 640 480"), std::string(9999, '\n')}) {
@@ -199,7 +199,7 @@ TEST_F(ResumptionTest, NamesWhatIsWrongWithEachWhereNoneIsWhole) {
   const std::string whole = NextCheckpoint();
   Write(whole.substr(0, 1000));
   std::string newer = NextCheckpoint();
-  newer.replace(newer.find("fresco-checkpoint-4"), 19, "fresco-checkpoint-9");
+  newer.replace(newer.find("fresco-checkpoint-5"), 19, "fresco-checkpoint-9");
   const Path path = Write(newer);
   const std::string refusal = Refusal();
   for (const std::string& part : {std::string("cut short, at 1000 bytes"), std::string("fresco-checkpoint-9"),
