@@ -14,8 +14,8 @@
 
 namespace fresco {
 
-/// Raised with every change to a .lcm file.
-inline constexpr int32_t kProtocolVersion = 8;
+/// Raised with every change to a .lcm file, and of what an order means.
+inline constexpr int32_t kProtocolVersion = 9;
 
 /// Every message fits one Ethernet frame: LCM drops a message if one of its fragments is lost.
 inline constexpr size_t kMaximumMessageBytes = 1350;

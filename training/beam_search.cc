@@ -1,7 +1,7 @@
 #include "training/beam_search.h"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -11,16 +11,16 @@
 #include "training/flyer.h"
 
 namespace fresco {
-namespace {
-
-/// Orders states by their bits.
-struct ByBits {
-  bool operator()(const std::vector<float>* a, const std::vector<float>* b) const {
-    return std::memcmp(a->data(), b->data(), a->size() * sizeof(float)) < 0;
+bool BeamSearch::ByEqualFields::operator()(const std::vector<float>* a, const std::vector<float>* b) const {
+  for (const size_t field : search->equal_fields_) {
+    const auto bits_a = std::bit_cast<uint32_t>((*a)[field]);
+    const auto bits_b = std::bit_cast<uint32_t>((*b)[field]);
+    if (bits_a != bits_b) {
+      return bits_a < bits_b;
+    }
   }
-};
-
-}  // namespace
+  return false;
+}
 
 BeamSearch::Node::Node(const World& world)
     : environment(world.NewEnvironment()),
@@ -35,6 +35,10 @@ BeamSearch::BeamSearch(const Experiment& experiment, int width)
   for (size_t i = 0; i < width_; ++i) {
     nodes_.emplace_back(experiment.world());
     longer_.emplace_back(experiment.world());
+  }
+  for (size_t field = 0; field < static_cast<size_t>(experiment.world().state_size()); ++field) {
+    const bool only_equal = experiment.world().preference(field) == Preference::kOnlyEqual;
+    (only_equal ? equal_fields_ : ordered_fields_).push_back(field);
   }
 }
 
@@ -75,18 +79,27 @@ bool BeamSearch::Step() {
     steps_.back().push_back(nodes_[i].origin);
   }
   size_t count = 0;
-  std::map<const std::vector<float>*, Node*, ByBits> nodes_by_state;
+  std::map<const std::vector<float>*, std::vector<size_t>, ByEqualFields> comparable(ByEqualFields{this});
   for (size_t i = 0; i < choices_.size() && count < width_; ++i) {
     Node& node = longer_[count];
     if (!Try(choices_[i].origin, node)) {
       continue;
     }
-    const auto [found, is_new] = nodes_by_state.try_emplace(&node.state, &node);
-    if (is_new) {
+    const auto found = comparable.find(&node.state);
+    if (found == comparable.end()) {
+      comparable[&node.state] = {count};
       ++count;
-    } else if (node.earned > found->second->earned) {  // from equal states on, everything is equal
-      found->second->earned = node.earned;
-      found->second->origin = node.origin;
+      continue;
+    }
+    std::vector<size_t>& others = found->second;
+    const auto related = std::find_if(others.begin(), others.end(), [&](size_t other) {
+      return IsAsGoodAs(longer_[other], node) || IsAsGoodAs(node, longer_[other]);
+    });
+    if (related == others.end()) {
+      others.push_back(count);
+      ++count;
+    } else if (!IsAsGoodAs(longer_[*related], node)) {
+      std::swap(longer_[*related], node);
     }
   }
   std::swap(nodes_, longer_);
@@ -140,6 +153,16 @@ bool BeamSearch::Try(const Origin& origin, Node& node) {
     best_origin_ = origin;
   }
   return false;
+}
+
+/// Whether the search can do without `other`; both have the same equal_fields_.
+bool BeamSearch::IsAsGoodAs(const Node& node, const Node& other) const {
+  return node.earned >= other.earned &&
+         std::all_of(ordered_fields_.begin(), ordered_fields_.end(), [&](size_t field) {
+           return experiment_.world().preference(field) == Preference::kLess
+                      ? node.state[field] <= other.state[field]
+                      : node.state[field] >= other.state[field];
+         });
 }
 
 std::vector<int16_t> BeamSearch::BestActions() const {

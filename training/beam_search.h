@@ -1,8 +1,9 @@
 // A beam search for a good episode: because the world is known, the values of a network can guide a search
 // through many episodes side by side. Of the partial episodes of each length it keeps the `width` best ones,
 // those with the largest sum of what they earned before their last action and of what the network expects of
-// that action; of several that lead to the same state, the one that has earned most. The result is a pure
-// function of world, seed, parameters and width. Only one thread at a time may use an object.
+// that action. It leaves out each one for which it has another that is at least as good: in its state
+// (WorldDescription::preferences) and in what it has earned. The result is a pure function of world, seed,
+// parameters and width. Only one thread at a time may use an object.
 #pragma once
 
 #include <cstdint>
@@ -59,12 +60,21 @@ class BeamSearch {
     Origin origin;
   };
 
+  /// Orders states by the bits of those fields that have to be equal to compare the others.
+  struct ByEqualFields {
+    bool operator()(const std::vector<float>* a, const std::vector<float>* b) const;
+    const BeamSearch* search;
+  };
+
+  void Evaluate();
   void Choose();
   bool Try(const Origin& origin, Node& node);
-  void Evaluate();
+  bool IsAsGoodAs(const Node& node, const Node& other) const;
 
   Experiment experiment_;
   size_t width_;
+  std::vector<size_t> equal_fields_;  // the fields of a state that have to be equal, and the others
+  std::vector<size_t> ordered_fields_;
   std::vector<int16_t> first_;  // the actions before the search
   std::shared_ptr<const Vector> parameters_;
   std::unique_ptr<NetworkWorkspace> workspace_;

@@ -54,6 +54,8 @@ World::World(WorldDescription description) : description_(std::move(description)
   FRESCO_CHECK(IsName(description_.name) && IsName(description_.success));
   FRESCO_CHECK(std::all_of(description_.state.begin(), description_.state.end(), HasName));
   FRESCO_CHECK(std::all_of(description_.figures.begin(), description_.figures.end(), HasName));
+  FRESCO_CHECK(description_.preferences.empty() ||
+               description_.preferences.size() == description_.state.size());
   FRESCO_CHECK(!description_.sets || Fit(*description_.sets, description_));
 }
 

@@ -47,6 +47,9 @@ struct ObservationSets {
   int groups = 0;       ///< of actions, e.g. moves, >= 1
 };
 
+/// Which of two values of a state's field is at least as good.
+enum class Preference : uint8_t { kOnlyEqual, kLess, kMore };
+
 /// What a world states about itself.
 struct WorldDescription {
   std::string name;                  ///< of the kind of world, e.g. "cartpole"
@@ -65,6 +68,11 @@ struct WorldDescription {
   bool chance = true;
   /// Whether its environments have CopyFrom, so that a search can try several actions from one state.
   bool copies = false;
+  /// For each field of a state, which values are at least as good. All fields together: whatever an episode
+  /// that succeeds does and earns from some state on, can be done from each state that is as good in every
+  /// field, and earns at least as much there. So a search need not follow the worse one. Empty: all fields
+  /// are kOnlyEqual.
+  std::vector<Preference> preferences;
   std::vector<Quantity> figures;  ///< what an episode is judged by; the first one is its score
   bool less_is_better = false;    ///< of two scores
   std::string success;            ///< what an episode that succeeds did, e.g. "arrived"
@@ -131,6 +139,9 @@ class World {
   int state_size() const { return static_cast<int>(description_.state.size()); }
   int observation_size() const { return description_.observation_size; }
   int actions() const { return static_cast<int>(description_.actions.size()); }
+  Preference preference(size_t field) const {
+    return description_.preferences.empty() ? Preference::kOnlyEqual : description_.preferences[field];
+  }
   int longest_episode() const { return description_.longest_episode; }
 
   /// A new environment; `this` must outlive it. Call Reset before anything else.

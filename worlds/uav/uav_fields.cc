@@ -76,6 +76,7 @@ WorldDescription DescribeFields(const Scenario& common, const FieldRanges& range
     description.state.push_back({fmt::format("sensor_{}_y_m", sensor), "m"});
     description.state.push_back({fmt::format("sensor_{}_weight", sensor), ""});
   }
+  description.preferences.resize(description.state.size(), Preference::kOnlyEqual);
   description.sets = SetsOf(ranges.sensors.maximum, common.map != nullptr);
   description.observation_size =
       NetworkInput::Size(ranges.sensors.maximum, {.sets = true}, common.map != nullptr);

@@ -181,6 +181,9 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.less_is_better = true;
   description.success = "arrived";
   description.copies = true;
+  description.preferences.assign(description.state.size(), Preference::kOnlyEqual);
+  description.preferences[kEnergyMarginField] = Preference::kMore;
+  std::fill_n(description.preferences.begin() + kAoiField, sensors, Preference::kLess);
   if (options.network_input.sets) {
     description.sets = SetsOf(static_cast<int>(sensors), scenario.map != nullptr);
   }
