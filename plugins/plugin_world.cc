@@ -141,6 +141,10 @@ void PluginWorld::Observe(std::span<const float> state, std::span<float> observa
   std::copy(state.begin(), state.end(), observation.begin());
 }
 
+std::optional<StateFormulas> PluginWorld::Formulate(Formulas& formulas) const {
+  return StateFormulas{formulas.State(0, state_size()), std::nullopt};  // the mask is the library's
+}
+
 bool PluginWorld::Succeeded(const Episode& episode) const {
   return Return(episode) >= success_return_;
 }

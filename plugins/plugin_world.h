@@ -30,6 +30,7 @@ class PluginWorld : public World {
   std::unique_ptr<Environment> NewEnvironment() const override;
   /// The observation is the state.
   void Observe(std::span<const float> state, std::span<float> observation) const override;
+  std::optional<StateFormulas> Formulate(Formulas& formulas) const override;
   bool Succeeded(const Episode& episode) const override;
 
  private:

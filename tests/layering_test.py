@@ -17,6 +17,7 @@ ALLOWED = {
     "msgs": {"core", "nn", "worlds", "plugins", "bus"},
     "training": {"core", "nn", "worlds", "msgs"},
     "storage": {"core", "nn", "worlds", "planner", "msgs", "training"},
+    "exports": {"core", "nn", "worlds", "msgs", "storage"},
     "actors": {"core", "nn", "worlds", "bus", "msgs", "training"},
     "learner": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage"},
     "logs": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage"},
@@ -24,7 +25,7 @@ ALLOWED = {
     "report": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage", "processes"},
     "paper": {"core", "worlds", "planner", "bus", "msgs", "storage", "processes", "report"},
     "soak": {"core", "bus", "msgs", "storage", "processes", "report"},
-    "tools": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage", "actors", "learner", "logs",
+    "tools": {"core", "nn", "worlds", "planner", "bus", "msgs", "training", "storage", "exports", "actors", "learner", "logs",
               "processes", "report", "paper", "soak"},
 }
 # Libraries that only some rooms may see.
@@ -34,6 +35,7 @@ RESERVED = {
     "Eigen/": {"nn"},
     "google/protobuf/": {"msgs"},
     "png.h": {"msgs"},
+    "onnx/": {"exports"},
     "nlohmann/": {"plugins", "storage", "logs", "processes", "report", "paper", "soak", "tools"},
 }
 # What may know the UAV's world: its own rooms, and its files in rooms that serve every world. The others ask a world

@@ -178,7 +178,7 @@ int Export(const ExportOptions& options) {
   return 0;
 }
 
-void AddExport(CLI::App& log, Command& command) {
+void AddLogExport(CLI::App& log, Command& command) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* app = log.add_subcommand("export", "Write transitions or statuses as a table");
   AddEventInput(*app, options->input);
@@ -201,7 +201,7 @@ void AddLog(CLI::App& app, Command& command) {
   AddInfo(*log, command);
   AddCat(*log, command);
   AddCut(*log, command);
-  AddExport(*log, command);
+  AddLogExport(*log, command);
   AddLogPlay(*log, command);
 }
 

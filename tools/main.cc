@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   Command command;
   AddTrain(app, command);
   AddEvaluate(app, command);
+  AddExport(app, command);
   AddRetrain(app, command);
   AddFly(app, command);
   AddFigures(app, command);

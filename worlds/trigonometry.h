@@ -8,21 +8,48 @@
 
 namespace fresco {
 
+template <class Number>
 struct SineAndCosine {
-  double sine = 0;
-  double cosine = 0;
+  Number sine;
+  Number cosine;
 };
+
+// How many quarter turns a radian is, and pi / 2 in three parts, of which the first two have 33 bits.
+inline constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1;
+inline constexpr double kHalfPi[] = {0x1.921fb544p0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
+
+/// The sine and the cosine of rest + lost, where |rest| is at most pi / 4 and `lost` is far smaller. `Number`
+/// is double, or formulas of such numbers (worlds/formulas.h).
+template <class Number>
+SineAndCosine<Number> SineAndCosineOfRest(const Number& rest, const Number& lost) {
+  // The minimax polynomials of fdlibm's __kernel_sin and __kernel_cos, in the order of evaluation of
+  // FreeBSD's msun.
+  const Number z = rest * rest;
+  const Number w = z * z;
+  const Number sine_tail = 8.33333333332248946124e-03 +
+                           z * (-1.98412698298579493134e-04 + z * 2.75573137070700676789e-06) +
+                           z * w * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
+  const Number cube = z * rest;
+  const Number sine =
+      rest - ((z * (0.5 * lost - cube * sine_tail) - lost) - cube * -1.66666666666666324348e-01);
+  const Number cosine_tail =
+      z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * 2.48015872894767294178e-05)) +
+      w * w *
+          (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11));
+  const Number half = 0.5 * z;
+  const Number head = 1.0 - half;
+  const Number cosine = head + (((1.0 - head) - half) + (z * cosine_tail - rest * lost));
+  return {sine, cosine};
+}
 
 /// The sine and the cosine of an angle in radians, within 1.2 units in the last place if |angle| <= 1e5;
 /// farther away they lose precision. NaN if the angle is not finite.
-inline SineAndCosine SineAndCosineOf(double angle) {
+inline SineAndCosine<double> SineAndCosineOf(double angle) {
   // The angle is a number of quarter turns and a rest of at most an eighth turn. Adding `kRound` rounds to a
   // whole number, which is then the low bits. Quarter turns times each of the first two parts of pi / 2 are
   // exact, since these have 33 bits.
-  constexpr double kEighth = 0x1.921fb54442d18p-1;             // pi / 4
-  constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1;  // 2 / pi
+  constexpr double kEighth = 0x1.921fb54442d18p-1;  // pi / 4
   constexpr double kRound = 0x1.8p52;
-  constexpr double kHalfPi[] = {0x1.921fb544p0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
   double shifted = kRound;
   double rest = angle;
   double lost = 0;  // what `rest` lacks
@@ -35,26 +62,10 @@ inline SineAndCosine SineAndCosineOf(double angle) {
     lost = (near - rest) - correction - quarters * kHalfPi[2];
   }
 
-  // The minimax polynomials of fdlibm's __kernel_sin and __kernel_cos, in the order of evaluation of
-  // FreeBSD's msun.
-  const double z = rest * rest;
-  const double w = z * z;
-  const double sine_tail = 8.33333333332248946124e-03 +
-                           z * (-1.98412698298579493134e-04 + z * 2.75573137070700676789e-06) +
-                           z * w * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10);
-  const double cube = z * rest;
-  const double sine =
-      rest - ((z * (0.5 * lost - cube * sine_tail) - lost) - cube * -1.66666666666666324348e-01);
-  const double cosine_tail =
-      z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03 + z * 2.48015872894767294178e-05)) +
-      w * w *
-          (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11));
-  const double half = 0.5 * z;
-  const double head = 1.0 - half;
-  const double cosine = head + (((1.0 - head) - half) + (z * cosine_tail - rest * lost));
-
+  const auto [sine, cosine] = SineAndCosineOfRest(rest, lost);
   const auto quarter = std::bit_cast<uint64_t>(shifted);
-  const SineAndCosine turned = quarter % 2 == 0 ? SineAndCosine{sine, cosine} : SineAndCosine{cosine, sine};
+  const auto turned =
+      quarter % 2 == 0 ? SineAndCosine<double>{sine, cosine} : SineAndCosine<double>{cosine, sine};
   return {(quarter & 2) == 0 ? turned.sine : -turned.sine,
           ((quarter + 1) & 2) == 0 ? turned.cosine : -turned.cosine};
 }

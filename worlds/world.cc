@@ -59,6 +59,10 @@ World::World(WorldDescription description) : description_(std::move(description)
   FRESCO_CHECK(!description_.sets || Fit(*description_.sets, description_));
 }
 
+std::optional<StateFormulas> World::Formulate(Formulas&) const {
+  return std::nullopt;
+}
+
 void World::Judge(const Episode& episode, std::span<double> figures) const {
   FRESCO_CHECK(figures.size() == 1);
   figures[0] = Return(episode);

@@ -12,6 +12,7 @@
 
 #include "core/random.h"
 #include "worlds/episode_account.h"
+#include "worlds/formulas.h"
 
 namespace fresco {
 
@@ -150,6 +151,10 @@ class World {
   /// Writes what the network sees of a state. A pure function of the state's fields, so actor and learner get
   /// the same bits.
   virtual void Observe(std::span<const float> state, std::span<float> observation) const = 0;
+
+  /// What Observe and WriteMask compute, as formulas, which are added to the list. They give the same bits,
+  /// but for a mask that rounding to a state's precision decides. None if the world can't state them.
+  virtual std::optional<StateFormulas> Formulate(Formulas& formulas) const;
 
   /// Writes the figures of a complete episode, in the order of WorldDescription::figures. The default is for
   /// a world with one figure, the return: the sum of the rewards.

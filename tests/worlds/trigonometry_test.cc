@@ -24,7 +24,7 @@ TEST(Trigonometry, AgreesWithTheLibraryInLongDouble) {
   for (const double range : kRanges) {
     for (int i = 0; i < 20'000; ++i) {
       const double angle = range * (2 * stream.NextUniform() - 1);
-      const SineAndCosine result = SineAndCosineOf(angle);
+      const SineAndCosine<double> result = SineAndCosineOf(angle);
       ASSERT_LE(UnitsApart(result.sine, std::sin(static_cast<long double>(angle))), kAllowedUnits) << angle;
       ASSERT_LE(UnitsApart(result.cosine, std::cos(static_cast<long double>(angle))), kAllowedUnits) << angle;
     }

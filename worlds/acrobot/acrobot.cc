@@ -67,6 +67,22 @@ Acrobot::State Advance(Acrobot::State state, const Acrobot::State& rates, double
   return state;
 }
 
+/// SineAndCosineOf as formulas.
+SineAndCosine<Term> FormulasOfSineAndCosine(Term angles) {
+  const Term quarters = RoundToWhole(angles * kQuartersPerRadian);
+  const Term near = angles - quarters * kHalfPi[0];
+  const Term correction = quarters * kHalfPi[1];
+  const Term rest = near - correction;
+  const Term lost = (near - rest) - correction - quarters * kHalfPi[2];
+  const auto [sine, cosine] = SineAndCosineOfRest(rest, lost);
+  const auto is_odd = [](Term number) { return number - 2.0 * Floor(number / 2.0); };
+  const auto turned = [&](Term turns, Term even, Term odd) {
+    const Term value = Choose(is_odd(turns), odd, even);
+    return Choose(is_odd(Floor(turns / 2.0)), -value, value);
+  };
+  return {turned(quarters, sine, cosine), turned(quarters + 1.0, sine, cosine)};
+}
+
 }  // namespace
 
 Acrobot::Acrobot(int maximum_steps) : World(DescribeAcrobot(maximum_steps)) {}
@@ -84,6 +100,15 @@ void Acrobot::Observe(std::span<const float> state, std::span<float> observation
   }
   observation[4] = static_cast<float>(state[2] / kMaximumVelocity1);
   observation[5] = static_cast<float>(state[3] / kMaximumVelocity2);
+}
+
+std::optional<StateFormulas> Acrobot::Formulate(Formulas& formulas) const {
+  const auto [sines, cosines] = FormulasOfSineAndCosine(ToDouble(formulas.State(0, 2)));
+  const Term velocities =
+      ToDouble(formulas.State(2, 2)) / formulas.Double({kMaximumVelocity1, kMaximumVelocity2});
+  const Term observation = formulas.Join(
+      {Part(cosines, 0, 1), Part(sines, 0, 1), Part(cosines, 1, 1), Part(sines, 1, 1), velocities});
+  return StateFormulas{ToSingle(observation), formulas.Single({1, 1, 1})};
 }
 
 bool Acrobot::Succeeded(const Episode& episode) const {

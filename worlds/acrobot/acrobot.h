@@ -38,6 +38,7 @@ class Acrobot : public World {
 
   std::unique_ptr<Environment> NewEnvironment() const override;
   void Observe(std::span<const float> state, std::span<float> observation) const override;
+  std::optional<StateFormulas> Formulate(Formulas& formulas) const override;
   bool Succeeded(const Episode& episode) const override;
 
   /// The state 0.2 s later under a torque of `torque_nm` newton metres: one step of the fourth-order

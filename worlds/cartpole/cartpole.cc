@@ -17,6 +17,10 @@ StepResult AdvanceCartPole(int action, CartPole::State& state) {
   return {1, CartPole::HasFailed(state) ? Ending::kTerminal : Ending::kNone};
 }
 
+// What the network sees of a state's fields is divided by these.
+constexpr std::array kUnits = {static_cast<float>(CartPole::kMaximumPositionM), 2.0f,
+                               static_cast<float>(CartPole::kMaximumAngleRad), 2.0f};
+
 WorldDescription DescribeCartPole(int maximum_steps) {
   WorldDescription description;
   description.name = "cartpole";
@@ -42,12 +46,15 @@ std::unique_ptr<Environment> CartPole::NewEnvironment() const {
 }
 
 void CartPole::Observe(std::span<const float> state, std::span<float> observation) const {
-  constexpr auto kAngle = static_cast<float>(kMaximumAngleRad);
-  constexpr std::array kUnits = {static_cast<float>(kMaximumPositionM), 2.0f, kAngle, 2.0f};
   FRESCO_CHECK(state.size() == kUnits.size() && observation.size() == kUnits.size());
   for (size_t field = 0; field < kUnits.size(); ++field) {
     observation[field] = state[field] / kUnits[field];
   }
+}
+
+std::optional<StateFormulas> CartPole::Formulate(Formulas& formulas) const {
+  const Term units = formulas.Single({kUnits.begin(), kUnits.end()});
+  return StateFormulas{formulas.State(0, 4) / units, formulas.Single({1, 1})};
 }
 
 bool CartPole::Succeeded(const Episode& episode) const {

@@ -37,6 +37,7 @@ class CartPole : public World {
 
   std::unique_ptr<Environment> NewEnvironment() const override;
   void Observe(std::span<const float> state, std::span<float> observation) const override;
+  std::optional<StateFormulas> Formulate(Formulas& formulas) const override;
   bool Succeeded(const Episode& episode) const override;
 
   /// The state 0.02 s later if the cart is pushed with `force_n` newtons (positive: to the right). One step

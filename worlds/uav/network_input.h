@@ -36,6 +36,11 @@ struct ObservedField {
   const MapInput* map_input = nullptr;  ///< of this map
 };
 
+// Where WriteSets writes what changes from slot to slot: two of the UAV's own numbers, and one of a sensor's.
+inline constexpr int kTimeMarginInput = 4;
+inline constexpr int kEnergyMarginInput = 5;
+inline constexpr int kAoiInput = 5;
+
 /// What a world states about an observation for agent.set_network with at most so many sensors.
 ObservationSets SetsOf(int sensors, bool has_map);
 

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "worlds/uav/flight.h"
 #include "worlds/uav/uav_environment.h"
+#include "worlds/uav/uav_formulas.h"
 
 namespace fresco {
 namespace {
@@ -336,6 +337,13 @@ Episode UavFields::FromItsField(const UavWorld& field, uint64_t seed, const Epis
     recorder.Step(static_cast<int>(in_field.move) * schedules() + in_field.schedule);
   }
   return recorder.Release();
+}
+
+std::optional<StateFormulas> UavFields::Formulate(Formulas& formulas) const {
+  if (common_.map != nullptr) {
+    return std::nullopt;
+  }
+  return FormulasOfFields(UavWorld(Largest(common_, ranges_), {options_.mask, {}}), layout(), formulas);
 }
 
 void UavFields::Judge(const Episode& episode, std::span<double> figures) const {

@@ -55,6 +55,8 @@ class UavFields : public World {
   std::unique_ptr<Environment> NewEnvironment() const override;
   /// WriteSets (network_input.h) of the field that the state says.
   void Observe(std::span<const float> state, std::span<float> observation) const override;
+  /// None over a map.
+  std::optional<StateFormulas> Formulate(Formulas& formulas) const override;
   /// These four are those of the episode's field.
   void Judge(const Episode& episode, std::span<double> figures) const override;
   bool Succeeded(const Episode& episode) const override;

@@ -16,6 +16,7 @@
 #include "worlds/uav/flight.h"
 #include "worlds/uav/physics.h"
 #include "worlds/uav/uav_environment.h"
+#include "worlds/uav/uav_formulas.h"
 
 namespace fresco {
 namespace {
@@ -304,6 +305,10 @@ std::unique_ptr<Environment> UavWorld::NewEnvironment() const {
 
 void UavWorld::Observe(std::span<const float> state, std::span<float> observation) const {
   network_input_->Write(state, observation);
+}
+
+std::optional<StateFormulas> UavWorld::Formulate(Formulas& formulas) const {
+  return FormulasOfField(*this, formulas);
 }
 
 void UavWorld::Judge(const Episode& episode, std::span<double> figures) const {

@@ -80,6 +80,7 @@ class UavWorld : public World {
 
   std::unique_ptr<Environment> NewEnvironment() const override;
   void Observe(std::span<const float> state, std::span<float> observation) const override;
+  std::optional<StateFormulas> Formulate(Formulas& formulas) const override;
   void Judge(const Episode& episode, std::span<double> figures) const override;
   bool Succeeded(const Episode& episode) const override;
   /// Tells a flight from the start: arrived, outcome, slots, total_aoi, average_aoi, sum_aoi and

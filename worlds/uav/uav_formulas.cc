@@ -1,0 +1,191 @@
+#include "worlds/uav/uav_formulas.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+
+namespace fresco {
+namespace {
+
+/// Which moves the mask allows [5]. `closer` and `possible`, [4] each: whether a move to the north, south,
+/// east or west leads closer to the stop, and whether it can be made at all.
+Term AllowedMoves(const UavWorld& world, Term closer, Term possible, Formulas& formulas) {
+  if (!world.mask_options().safe_actions) {
+    return formulas.Single({1, 1, 1, 1, 1});
+  }
+  // The energy margin that a move closer, a hover and a move away need, by the time margin. It does not
+  // depend on the distance to the stop: here it is 1.
+  std::vector<double> needed_j;
+  for (int time_margin = 0; time_margin <= world.scenario().slots; ++time_margin) {
+    const int slots_left = time_margin + 1;
+    for (const int distance : {0, 1, 2}) {
+      const double move_j = distance == 1 ? world.hovering_energy_j() : world.flying_energy_j();
+      const double more_j =
+          move_j + CompletionEnergy(world, distance, slots_left - 1) + EnergyMargin(world, 1, slots_left, 0);
+      needed_j.push_back(distance <= slots_left - 1 ? more_j : std::numeric_limits<float>::max());
+    }
+  }
+  const Term time_margin = Largest(formulas.State(kTimeMarginField, 1), 0.0);
+  const Term safe = AtMost(formulas.Row(needed_j, 3, time_margin), formulas.State(kEnergyMarginField, 1));
+  const Term moves = possible * Choose(closer, Part(safe, 0, 1), Part(safe, 2, 1));
+  const Term allowed = formulas.Join({moves, Part(safe, 1, 1)});
+  return Largest(allowed, AtMost(Sum(allowed), 0.0));  // if nothing is safe, everything is allowed
+}
+
+/// The mask of all actions. `useful`: which sensors may be scheduled.
+Term MaskOfActions(Term moves, Term useful, Formulas& formulas) {
+  std::vector<Term> parts;
+  for (int move = 0; move < kMoves; ++move) {
+    const Term allowed = Part(moves, move, 1);
+    parts.push_back(allowed);
+    parts.push_back(allowed * useful);
+  }
+  return formulas.Join(parts);
+}
+
+/// The mask where everything that depends on the cell is in a table.
+Term MaskOfField(const UavWorld& world, Term cell, Formulas& formulas) {
+  std::vector<double> moves;
+  std::vector<double> coverage;
+  for (int index = 0; index < world.scenario().columns * world.scenario().rows; ++index) {
+    const Cell here = {index % world.scenario().columns, index / world.scenario().columns};
+    std::vector<double> possible;
+    for (int move = 0; move < 4; ++move) {
+      const Cell step = kMoveSteps[static_cast<size_t>(move)];
+      const Cell next = {here.column + step.column, here.row + step.row};
+      possible.push_back(world.MayFly(next) ? 1 : 0);
+      moves.push_back(world.MayFly(next) && world.DistanceToStop(next) < world.DistanceToStop(here) ? 1 : 0);
+    }
+    moves.insert(moves.end(), possible.begin(), possible.end());
+    for (const uint8_t covered : world.Coverage(here)) {
+      coverage.push_back(covered != 0 || !world.mask_options().coverage ? 1 : 0);
+    }
+  }
+  const Term of_cell = formulas.Row(std::move(moves), 8, cell);
+  return MaskOfActions(AllowedMoves(world, Part(of_cell, 0, 4), Part(of_cell, 4, 4), formulas),
+                       formulas.Row(std::move(coverage), world.sensors(), cell), formulas);
+}
+
+/// Entries of an observation that are fields of the state in other units.
+struct ScaledFields {
+  int first = 0;  // entry
+  Term value;
+  int count = 0;
+};
+
+std::vector<ScaledFields> ScaledFieldsOf(const UavWorld& world, Formulas& formulas) {
+  const double slots = world.scenario().slots;
+  const Term time = formulas.State(kTimeMarginField, 1) / slots;
+  const Term energy = formulas.State(kEnergyMarginField, 1) / world.scenario().initial_energy_j;
+  const auto ages = [&](int first, int count) {
+    return formulas.State(static_cast<int>(kAoiField) + first, count) / slots;
+  };
+  const int sensors = world.sensors();
+  if (!world.description().sets) {
+    return {{2, ages(0, sensors), sensors}, {2 + sensors, time, 1}, {3 + sensors, energy, 1}};
+  }
+  const ObservationSets& sets = *world.description().sets;
+  std::vector<ScaledFields> fields = {{kTimeMarginInput, time, 1}, {kEnergyMarginInput, energy, 1}};
+  for (int sensor = 0; sensor < sensors; ++sensor) {
+    fields.push_back({sets.own_inputs + sensor * sets.item_inputs + kAoiInput, ages(sensor, 1), 1});
+  }
+  return fields;
+}
+
+/// The observation: a row of a table, with the scaled fields in their places.
+Term ObservationOfField(const UavWorld& world, Term cell, Formulas& formulas) {
+  const auto inputs = static_cast<size_t>(world.observation_size());
+  std::vector<double> table;
+  std::vector<float> observation(inputs);
+  for (int index = 0; index < world.scenario().columns * world.scenario().rows; ++index) {
+    const Cell here = {index % world.scenario().columns, index / world.scenario().columns};
+    std::fill(observation.begin(), observation.end(), 0.0f);
+    if (world.MayFly(here)) {
+      std::vector<float> state(static_cast<size_t>(world.state_size()));
+      state[kColumnField] = static_cast<float>(here.column);
+      state[kRowField] = static_cast<float>(here.row);
+      world.Observe(state, observation);
+    }
+    table.insert(table.end(), observation.begin(), observation.end());
+  }
+  const Term row = formulas.Row(std::move(table), static_cast<int>(inputs), cell);
+  std::vector<Term> parts;
+  int next = 0;
+  const auto add_row_until = [&](int end) {
+    if (end > next) {
+      parts.push_back(Part(row, next, end - next));
+    }
+  };
+  for (const ScaledFields& fields : ScaledFieldsOf(world, formulas)) {
+    add_row_until(fields.first);
+    parts.push_back(fields.value);
+    next = fields.first + fields.count;
+  }
+  add_row_until(static_cast<int>(inputs));
+  return formulas.Join(parts);
+}
+
+}  // namespace
+
+StateFormulas FormulasOfField(const UavWorld& world, Formulas& formulas) {
+  const Term cell = formulas.State(kRowField, 1) * world.scenario().columns + formulas.State(kColumnField, 1);
+  return {ObservationOfField(world, cell, formulas), MaskOfField(world, cell, formulas)};
+}
+
+StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& layout, Formulas& formulas) {
+  const Scenario& scenario = largest.scenario();
+  FRESCO_CHECK(scenario.map == nullptr);
+  const auto state = [&](size_t first) { return formulas.State(static_cast<int>(first), 1); };
+  const Term column = state(kColumnField);
+  const Term row = state(kRowField);
+  const Term stop_column = state(layout.stop());
+  const Term stop_row = state(layout.stop() + 1);
+  const Term slots = state(layout.slots());
+  const Term radius_m = ToDouble(state(layout.coverage_radius_m()));
+  const double longer_side = std::max(scenario.columns, scenario.rows);
+  const auto cells = [&](Term count) { return ToSingle(ToDouble(count) / longer_side); };
+  const auto metres = [&](Term length_m) { return ToSingle(length_m / (longer_side * scenario.cell_m)); };
+
+  std::vector<Term> weights;
+  for (size_t sensor = 0; sensor < layout.most; ++sensor) {
+    weights.push_back(state(layout.sensor(sensor) + 2));
+  }
+  constexpr double kPartsOfWeight{uint64_t{1} << 32};
+  const Term total_weight = Sum(Floor(ToDouble(formulas.Join(weights)) * kPartsOfWeight)) / kPartsOfWeight;
+
+  std::vector<Term> observation = {cells(column),
+                                   cells(row),
+                                   cells(stop_column - column),
+                                   cells(stop_row - row),
+                                   state(kTimeMarginField) / slots,
+                                   state(kEnergyMarginField) / scenario.initial_energy_j,
+                                   metres(radius_m)};
+  std::vector<Term> useful;
+  const Term east_m = ToDouble(column) * scenario.cell_m;
+  const Term north_m = ToDouble(row) * scenario.cell_m;
+  for (size_t sensor = 0; sensor < layout.most; ++sensor) {
+    const Term x_m = ToDouble(state(layout.sensor(sensor)));
+    const Term y_m = ToDouble(state(layout.sensor(sensor) + 1));
+    const Term is_absent = AtMost(weights[sensor], 0.0);
+    const Term distance_m = SquareRoot((east_m - x_m) * (east_m - x_m) + (north_m - y_m) * (north_m - y_m));
+    const Term is_covered = ToSingle(AtMost(distance_m, radius_m * (1 + 1e-9)));  // IsWithin
+    const Term item = formulas.Join({formulas.Single({1}), metres(x_m - east_m), metres(y_m - north_m),
+                                     metres(distance_m), is_covered, state(kAoiField + sensor) / slots,
+                                     ToSingle(ToDouble(weights[sensor]) / total_weight)});
+    observation.push_back(Choose(is_absent, 0.0, item));
+    useful.push_back(largest.mask_options().coverage ? Choose(is_absent, 0.0, is_covered) : 1.0 - is_absent);
+  }
+
+  // By move: north, south, east, west.
+  const Term away =
+      formulas.Join({stop_row - row, row - stop_row, stop_column - column, column - stop_column});
+  const Term closer = AtMost(1.0, away);
+  const Term room = formulas.Join({(scenario.rows - 1) - row, row, (scenario.columns - 1) - column, column});
+  const Term moves = AllowedMoves(largest, closer, AtMost(1.0, room), formulas);
+  return {formulas.Join(observation), MaskOfActions(moves, formulas.Join(useful), formulas)};
+}
+
+}  // namespace fresco
