@@ -41,14 +41,16 @@ inline void Layer(const float* parameters, const float* in, float* out) {
 constexpr const char* kSetNetwork = R"(
 inline void RunNetwork(const float* observation, float* values) {
   const auto item_at = [&](int item) { return observation + kOwnInputs + item * kItemInputs; };
-  int order[kItems];
+  int order[kItems];  // the items that are present, sorted by their bits
   int present = 0;
   for (int item = 0; item < kItems; ++item) {
-    if (*item_at(item) != 0) order[present++] = item;
+    if (*item_at(item) == 0) continue;
+    int place = present++;
+    for (; place > 0 && std::memcmp(item_at(item), item_at(order[place - 1]), sizeof(float) * kItemInputs) < 0; --place) {
+      order[place] = order[place - 1];
+    }
+    order[place] = item;
   }
-  std::sort(order, order + present, [&](int a, int b) {
-    return std::memcmp(item_at(a), item_at(b), sizeof(float) * kItemInputs) < 0;
-  });
 
   float encodings[kItems][kEncoding];  // in this order
   float pooled[kOwnInputs + 2 * kEncoding] = {};
