@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   AddSoak(app, command);
   AddLog(app, command);
   AddSpy(app, command);
+  AddDoctor(app, command);
   AddBench(app, command);
   app.footer("Exit status: 0 done, 1 the work failed, 2 wrong use.");
   return program.Run(argc, argv, [&] { return command(); });

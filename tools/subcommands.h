@@ -21,6 +21,7 @@ void AddFigures(CLI::App& app, Command& command);
 void AddSoak(CLI::App& app, Command& command);
 void AddLog(CLI::App& app, Command& command);
 void AddSpy(CLI::App& app, Command& command);
+void AddDoctor(CLI::App& app, Command& command);
 void AddBench(CLI::App& app, Command& command);
 
 // Subcommands of `fresco log` that have a file of their own.

@@ -1,0 +1,324 @@
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/lcm_url.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/installation.h"
+#include "core/memory.h"
+#include "nn/arithmetic.h"
+#include "tools/subcommands.h"
+
+namespace fresco {
+namespace {
+
+enum class Health { kGood, kWarning, kFailure };
+
+/// What one check found.
+struct Finding {
+  std::string name;
+  Health health = Health::kGood;
+  std::string found;
+  std::string command = {};  ///< mends it; empty if nothing has to be mended
+};
+
+struct DoctorOptions {
+  std::string lcm_url = kDefaultLcmUrl;
+  std::string channel_prefix = "FRESCO";
+  std::string folder = ".";
+  std::string format = "text";
+};
+
+/// A UDP socket that closes itself.
+class UdpSocket {
+ public:
+  UdpSocket() : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    if (descriptor_ < 0) {
+      throw Failure(fmt::format("doctor: no UDP socket can be opened: {}", std::strerror(errno)));
+    }
+  }
+  ~UdpSocket() { close(descriptor_); }
+  UdpSocket(const UdpSocket&) = delete;
+  UdpSocket& operator=(const UdpSocket&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  void Set(int option, int value) { setsockopt(descriptor_, SOL_SOCKET, option, &value, sizeof value); }
+
+ private:
+  int descriptor_;
+};
+
+sockaddr_in Address(const std::string& group, uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  inet_pton(AF_INET, group.c_str(), &address.sin_addr);
+  return address;
+}
+
+Finding CheckRoute(const MulticastEndpoint& endpoint) {
+  const UdpSocket udp;
+  const sockaddr_in address = Address(endpoint.group, endpoint.port);
+  if (connect(udp.descriptor(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    return {"multicast_route", Health::kFailure,
+            fmt::format("no route to {}: {}", endpoint.group, std::strerror(errno)),
+            "ip route add 224.0.0.0/4 dev lo"};
+  }
+  return {"multicast_route", Health::kGood, "to " + endpoint.group};
+}
+
+/// The URL with the next port.
+std::string UrlOfNextPort(const std::string& url, uint16_t port) {
+  std::string next = url;
+  const std::string old_port = fmt::format(":{}", port);
+  next.replace(next.find(old_port), old_port.size(), fmt::format(":{}", port == 65'535 ? 1024 : port + 1));
+  return next;
+}
+
+Finding CheckPort(const MulticastEndpoint& endpoint, const std::string& url) {
+  UdpSocket udp;
+  udp.Set(SO_REUSEADDR, 1);  // as LCM does
+  udp.Set(SO_REUSEPORT, 1);
+  const sockaddr_in address = Address("0.0.0.0", endpoint.port);
+  if (bind(udp.descriptor(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    return {"port", Health::kFailure,
+            fmt::format("UDP port {} can't be used: {} (`ss -ulpn` shows who has it)", endpoint.port,
+                        std::strerror(errno)),
+            fmt::format("{} train --lcm-url '{}'", ProgramName(), UrlOfNextPort(url, endpoint.port))};
+  }
+  return {"port", Health::kGood, fmt::format("UDP port {} can be shared", endpoint.port)};
+}
+
+Finding CheckBuffer(const MulticastEndpoint& endpoint) {
+  UdpSocket udp;
+  udp.Set(SO_RCVBUF, endpoint.receive_buffer_bytes);
+  int granted = 0;
+  socklen_t size = sizeof granted;
+  getsockopt(udp.descriptor(), SOL_SOCKET, SO_RCVBUF, &granted, &size);
+  granted /= 2;  // the kernel counts twice of what it was asked for
+  if (granted < endpoint.receive_buffer_bytes) {
+    return {"receive_buffer", Health::kWarning,
+            fmt::format("{} bytes of the {} asked for, so that bursts are lost and sent again", granted,
+                        endpoint.receive_buffer_bytes),
+            fmt::format("sysctl -w net.core.rmem_max={}", endpoint.receive_buffer_bytes)};
+  }
+  return {"receive_buffer", Health::kGood, fmt::format("{} bytes", granted)};
+}
+
+Finding CheckReach(const std::string& url) {
+  const size_t at = url.find("ttl=");
+  const bool this_machine = at == std::string::npos || url[at + 4] == '0';
+  return {"reach", Health::kGood,
+          this_machine ? "ttl=0: only this machine hears the run; with ttl=1 in --lcm-url, the network does"
+                       : fmt::format("{}: the run crosses networks", url.substr(at, 5))};
+}
+
+/// Listens for a second: other runs on this port would be heard, and hear this one.
+Finding CheckOtherTraffic(const DoctorOptions& options) {
+  constexpr int64_t kListen_us = 1'200'000;  // every run announces itself once a second
+  const auto bus = OpenLcmBus(options.lcm_url);
+  int64_t messages = 0;
+  int64_t announcements = 0;
+  bus->SubscribeToAll([&](const LcmEvent& event) {
+    ++messages;
+    announcements += event.channel == options.channel_prefix + "_RUN" ? 1 : 0;
+  });
+  for (const int64_t end_us = MonotonicMicroseconds() + kListen_us; MonotonicMicroseconds() < end_us;) {
+    bus->Poll(end_us - MonotonicMicroseconds());
+  }
+  if (announcements > 0) {
+    const LcmUrl url = ParseLcmUrl(options.lcm_url);
+    return {"other_traffic", Health::kWarning, "another run is on this port; a second one is refused",
+            fmt::format("{} train --lcm-url '{}'", ProgramName(),
+                        UrlOfNextPort(options.lcm_url, url.multicast ? url.multicast->port : 0))};
+  }
+  return {"other_traffic", Health::kGood,
+          messages == 0 ? "none" : fmt::format("{} messages in 1.2 s, of no run", messages)};
+}
+
+/// Sends messages as large as Fresco's to itself, at a rate beyond that of a usual training.
+Finding CheckDelivery(const DoctorOptions& options) {
+  constexpr int kMessages = 10'000;
+  constexpr int64_t kMessagesPerSecond = 20'000;
+  const std::string channel = options.channel_prefix + "_DOCTOR";
+  const auto receiver = OpenLcmBus(options.lcm_url);
+  const auto sender = OpenLcmBus(options.lcm_url);
+  int received = 0;
+  receiver->Subscribe(channel, [&](std::span<const std::byte>) { ++received; });
+  const std::vector<std::byte> message(1350);
+  const int64_t begin_us = MonotonicMicroseconds();
+  for (int sent = 0; sent < kMessages; ++sent) {
+    const int64_t due_us = begin_us + sent * int64_t{1'000'000} / kMessagesPerSecond;
+    do {
+      receiver->Poll(std::max<int64_t>(due_us - MonotonicMicroseconds(), 0));
+    } while (MonotonicMicroseconds() < due_us);
+    sender->Publish(channel, message);
+  }
+  const double rate = kMessages / (1e-6 * static_cast<double>(MonotonicMicroseconds() - begin_us));
+  while (received < kMessages && receiver->Poll(200'000) > 0) {
+  }
+  const double lost = 1 - static_cast<double>(received) / kMessages;
+  if (received == 0) {
+    return {"delivery", Health::kFailure, "no message came back; a firewall drops multicast, most likely",
+            fmt::format("nft add rule inet filter input ip daddr {} accept", "224.0.0.0/4")};
+  }
+  const std::string found = fmt::format("{:.2f} % of {} messages of 1350 bytes lost at {:.0f} a second",
+                                        100 * lost, kMessages, rate);
+  if (lost > 0.01) {
+    return {"delivery", Health::kWarning, found,
+            "sysctl -w net.core.rmem_max=4194304 net.core.rmem_default=4194304"};
+  }
+  return {"delivery", Health::kGood, found};
+}
+
+Finding CheckProcessor() {
+  const std::string name = CurrentArithmetic().name;
+  return {"processor", Health::kGood,
+          fmt::format("{}; the bits are those of every other host{}", name,
+                      name == "portable" ? ", but networks are many times slower" : "")};
+}
+
+Finding CheckMemory() {
+  constexpr int64_t kUsual = 500'000'000;  // a training with a ready experiment
+  const AvailableMemory memory = ReadAvailableMemory();
+  const std::string found =
+      fmt::format("{} available ({})", BytesText(memory.host.bytes), memory.host.source);
+  if (memory.host.bytes < kUsual) {
+    return {"memory", Health::kWarning, found + "; the ready experiments need up to 500 MB",
+            fmt::format("{} train --set agent.replay_capacity=40000", ProgramName())};
+  }
+  return {"memory", Health::kGood, found};
+}
+
+Finding CheckDisk(const std::string& folder) {
+  constexpr int64_t kUsual = 1'000'000'000;  // checkpoints, pictures, a recorded log
+  constexpr int64_t kLeast = 50'000'000;
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (error) {
+    return {"disk", Health::kFailure, fmt::format("{}: {}", folder, error.message()),
+            fmt::format("mkdir -p '{}'", folder)};
+  }
+  const auto free_bytes = static_cast<int64_t>(space.available);
+  const std::string found = fmt::format("{} free", BytesText(free_bytes));
+  if (free_bytes < kUsual) {
+    return {"disk", free_bytes < kLeast ? Health::kFailure : Health::kWarning,
+            found + "; a run with its log takes up to 1 GB",
+            fmt::format("{} train --out /other/disk/NAME", ProgramName())};
+  }
+  return {"disk", Health::kGood, found};
+}
+
+/// A program that only some commands need.
+Finding CheckProgram(const std::string& name, const std::string& program, const std::string& purpose,
+                     const std::vector<std::string>& files, const std::string& packages) {
+  std::string missing;
+  try {
+    RequireProgram(program, packages);
+  } catch (const Error&) {
+    missing = program;
+  }
+  for (const std::string& file : files) {
+    if (!std::filesystem::exists(file)) {
+      missing += (missing.empty() ? "" : ", ") + file;
+    }
+  }
+  if (!missing.empty()) {
+    return {name, Health::kWarning, fmt::format("{} missing: {}", missing, purpose),
+            "apt-get install -y " + packages};
+  }
+  return {name, Health::kGood, "installed: " + purpose};
+}
+
+std::vector<Finding> Examine(const DoctorOptions& options) {
+  std::vector<Finding> findings;
+  const LcmUrl url = ParseLcmUrl(options.lcm_url);
+  bool bus_works = true;
+  const auto add = [&](Finding finding) {
+    bus_works &= finding.health != Health::kFailure;
+    findings.push_back(std::move(finding));
+  };
+  if (url.multicast) {
+    add(CheckRoute(*url.multicast));
+    add(CheckPort(*url.multicast, options.lcm_url));
+    add(CheckBuffer(*url.multicast));
+    add(CheckReach(url.text));
+  }
+  if (bus_works) {  // the checks before say why it can't
+    try {
+      add(CheckOtherTraffic(options));
+      if (findings.back().health == Health::kGood) {  // a run is not to be disturbed
+        add(CheckDelivery(options));
+      }
+    } catch (const Error& error) {
+      add({"delivery", Health::kFailure, error.what(),
+           "nft add rule inet filter input ip daddr 224.0.0.0/4 accept"});
+    }
+  }
+  add(CheckProcessor());
+  add(CheckMemory());
+  add(CheckDisk(options.folder));
+  add(CheckProgram("gnuplot", "gnuplot", "draws the report's curves", {}, "gnuplot-nox"));
+  add(CheckProgram("lcm_spy", "java", "shows a live run (fresco spy)",
+                   {"/usr/share/java/lcm.jar", "/usr/share/java/jchart2d.jar"},
+                   "default-jre liblcm-java libjchart2d-java"));
+  return findings;
+}
+
+const char* NameOf(Health health) {
+  return health == Health::kGood ? "good" : health == Health::kWarning ? "warning" : "failure";
+}
+
+int Doctor(const DoctorOptions& options) {
+  const std::vector<Finding> findings = Examine(options);
+  bool works = true;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  std::string text;
+  for (const auto& [name, health, found, command] : findings) {
+    works &= health != Health::kFailure;
+    list.push_back({{"name", name}, {"health", NameOf(health)}, {"found", found}});
+    list.back()["command"] = command.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(command);
+    text += fmt::format("{:<8} {:<16} {}\n", NameOf(health), name, found);
+    if (!command.empty()) {
+      text += fmt::format("{:<25} mend it: {}\n", "", command);
+    }
+  }
+  if (options.format == "json") {
+    fmt::print("{}\n", nlohmann::ordered_json{{"works", works}, {"findings", list}}.dump(2));
+  } else {
+    fmt::print("{}\n{}\n", text,
+               works ? "Training works on this machine." : "Training can't work on this machine.");
+  }
+  return works ? 0 : 1;
+}
+
+}  // namespace
+
+void AddDoctor(CLI::App& app, Command& command) {
+  auto options = std::make_shared<DoctorOptions>();
+  CLI::App* doctor = app.add_subcommand(
+      "doctor",
+      "Examine this machine: network, memory, disk, programs; each problem with the command that mends it");
+  doctor->add_option("--lcm-url", options->lcm_url, "LCM URL of the runs to come")->capture_default_str();
+  doctor->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
+      ->capture_default_str();
+  doctor->add_option("--folder", options->folder, "Where runs will be written")->capture_default_str();
+  doctor->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
+  doctor->footer("Exit status: 0 training works, 1 it can't.");
+  doctor->callback([options, &command] { command = [options] { return Doctor(*options); }; });
+}
+
+}  // namespace fresco
