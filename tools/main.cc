@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   AddFigures(app, command);
   AddSoak(app, command);
   AddLog(app, command);
+  AddWatch(app, command);
   AddSpy(app, command);
   AddDoctor(app, command);
   AddBench(app, command);

@@ -20,6 +20,7 @@ void AddFly(CLI::App& app, Command& command);
 void AddFigures(CLI::App& app, Command& command);
 void AddSoak(CLI::App& app, Command& command);
 void AddLog(CLI::App& app, Command& command);
+void AddWatch(CLI::App& app, Command& command);
 void AddSpy(CLI::App& app, Command& command);
 void AddDoctor(CLI::App& app, Command& command);
 void AddBench(CLI::App& app, Command& command);
