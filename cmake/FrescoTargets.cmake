@@ -49,7 +49,7 @@ endfunction()
 # fresco_executable(name sources...)
 function(fresco_executable name)
   add_executable(${name} ${ARGN})
-  target_link_libraries(${name} PRIVATE fresco_compile_options fresco_warnings)
+  target_link_libraries(${name} PRIVATE fresco_commit fresco_compile_options fresco_warnings)
 endfunction()
 
 add_library(fresco_test_options INTERFACE)
