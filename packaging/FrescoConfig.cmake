@@ -6,10 +6,10 @@ list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 set(fresco_missing)
 foreach(fresco_needed IN ITEMS Threads:g++ CLI11:libcli11-dev Eigen3:libeigen3-dev fmt:libfmt-dev Lcm:liblcm-dev
     PNG:libpng-dev Protobuf:libprotobuf-dev Sodium:libsodium-dev spdlog:libspdlog-dev)
-  string(REGEX MATCH "(.+):(.+)" fresco_needed ${fresco_needed})  # CMake's name, and Debian's of the package that has it
-  set(fresco_debian_package ${CMAKE_MATCH_2})
-  find_package(${CMAKE_MATCH_1} QUIET)
-  if(NOT ${CMAKE_MATCH_1}_FOUND)
+  string(REPLACE ":" ";" fresco_needed ${fresco_needed})  # CMake's name, and Debian's of the package that has it
+  list(POP_BACK fresco_needed fresco_debian_package)
+  find_package(${fresco_needed} QUIET)
+  if(NOT ${fresco_needed}_FOUND)
     list(APPEND fresco_missing ${fresco_debian_package})
   endif()
 endforeach()

@@ -11,8 +11,8 @@ _fresco() {
     fi
   done
   # --format=text is three words for bash.
-  [[ $current == "=" ]] && current="" previous="="
-  [[ $previous == "=" ]] && previous=${COMP_WORDS[COMP_CWORD - 2]/#=/${COMP_WORDS[COMP_CWORD - 1]}}
+  [[ $current == "=" ]] && current=""
+  [[ $previous == "=" ]] && previous=${COMP_WORDS[COMP_CWORD - 2]}
   # The help of the option before the cursor, which takes a value: its line and the one below.
   option=$(grep -E -A 1 "^  $previous [A-Z]{2,}" <<<"$help" 2>/dev/null)
   if [[ $previous == --* && -n $option ]]; then
