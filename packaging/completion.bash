@@ -1,5 +1,5 @@
-# Completes the commands of Fresco's programs, their options and the values of these. It reads all of them from --help when
-# Tab is pressed.
+# Completes the commands of Fresco's programs, their options and the values of these. It reads all of them from --help
+# when Tab is pressed.
 _fresco() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} word option choices
   local newline=$'\n' command=("${COMP_WORDS[0]}")
