@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "core/command_line.h"
 #include "core/identifier.h"
+#include "core/installation.h"
 #include "core/signals.h"
 #include "nn/arithmetic.h"
 #include "nn/arithmetic_option.h"
@@ -66,7 +67,7 @@ int Main(int argc, char** argv) {
       "fresco-actor",
       "Flies episodes for Fresco's learner: waits for a run on the bus, serves it, and waits for the next "
       "one.",
-      LogStyle::kTimed);
+      LogStyle::kTimed, {kSourceCommit, CurrentArithmetic().name});
   CLI::App& app = program.command_line();
   app.add_option("--lcm-url", arguments.lcm_url, "LCM URL of the learner")->capture_default_str();
   app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")

@@ -1,15 +1,8 @@
-# Finds LCM (Debian's package has no CMake files, and its lcm.pc wants a package it does not
-# pull in) and compiles .lcm files with lcm-gen.
+# Compiles .lcm files with lcm-gen.
 include_guard(GLOBAL)
 
-find_path(LCM_INCLUDE_DIR lcm/lcm.h REQUIRED)
-find_library(LCM_LIBRARY lcm REQUIRED)
 find_program(LCM_GEN lcm-gen REQUIRED)
 set(FRESCO_DESCRIBE_MESSAGES ${CMAKE_SOURCE_DIR}/msgs/describe_messages.py)
-
-add_library(fresco_lcm INTERFACE)
-target_include_directories(fresco_lcm SYSTEM INTERFACE ${LCM_INCLUDE_DIR})
-target_link_libraries(fresco_lcm INTERFACE ${LCM_LIBRARY})
 
 # fresco_lcm_types(target package file.lcm...): an interface target with the generated C++ types,
 # included as "<package>/<type>.hpp". Each file.lcm defines exactly the struct of its name. What LCM's own code
@@ -35,9 +28,9 @@ function(fresco_lcm_types target package)
   add_custom_target(${target}_generate DEPENDS ${outputs} ${descriptions})
   add_library(${target} INTERFACE)
   add_dependencies(${target} ${target}_generate)
-  target_include_directories(${target} SYSTEM INTERFACE ${directory})
-  target_link_libraries(${target} INTERFACE fresco_lcm)
-  set_target_properties(${target} PROPERTIES FRESCO_LCM_SOURCES "${sources}")
+  target_include_directories(${target} SYSTEM INTERFACE $<BUILD_INTERFACE:${directory}>)
+  target_link_libraries(${target} INTERFACE Lcm::lcm)
+  set_target_properties(${target} PROPERTIES FRESCO_LCM_SOURCES "${sources}" FRESCO_LCM_HEADERS ${directory})
 endfunction()
 
 # fresco_lcm_java_sources(variable target package): sets the variable to the Java sources of the types of a target

@@ -18,6 +18,7 @@ function(fresco_proto_library target)
   add_library(${target} STATIC ${outputs})
   # protoc gives names that every file has to each
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
-  target_include_directories(${target} SYSTEM PUBLIC ${CMAKE_BINARY_DIR}/protoc-cpp)
-  target_link_libraries(${target} PUBLIC protobuf::libprotobuf PRIVATE fresco_compile_options fresco_quick_to_compile)
+  target_include_directories(${target} SYSTEM PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/protoc-cpp>)
+  target_link_libraries(${target} PUBLIC protobuf::libprotobuf
+    PRIVATE $<BUILD_INTERFACE:fresco_compile_options> $<BUILD_INTERFACE:fresco_quick_to_compile>)
 endfunction()

@@ -2,7 +2,8 @@
 include_guard(GLOBAL)
 
 add_library(fresco_compile_options INTERFACE)
-target_include_directories(fresco_compile_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_features(fresco_compile_options INTERFACE cxx_std_20)
+target_include_directories(fresco_compile_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>)
 target_compile_options(fresco_compile_options INTERFACE
   # The same expression must give the same bits for every processor and wherever it is inlined: the compiler may not
   # decide by itself which multiplications and additions it fuses. There is no -march: only the networks' arithmetic
@@ -40,16 +41,16 @@ set(FRESCO_ROOMS_OPTIMISED_WITH_SANITIZER fresco_core fresco_nn fresco_worlds fr
 # fresco_library(name sources... ): a folder's library, compiled with the common options.
 function(fresco_library name)
   add_library(${name} STATIC ${ARGN})
-  target_link_libraries(${name} PUBLIC fresco_compile_options PRIVATE fresco_warnings)
+  target_link_libraries(${name} PUBLIC fresco_compile_options PRIVATE $<BUILD_INTERFACE:fresco_warnings>)
   if(FRESCO_SANITIZE AND NOT name IN_LIST FRESCO_ROOMS_OPTIMISED_WITH_SANITIZER)
-    target_link_libraries(${name} PRIVATE fresco_quick_to_compile)
+    target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:fresco_quick_to_compile>)
   endif()
 endfunction()
 
 # fresco_executable(name sources...)
 function(fresco_executable name)
   add_executable(${name} ${ARGN})
-  target_link_libraries(${name} PRIVATE fresco_compile_options fresco_warnings)
+  target_link_libraries(${name} PRIVATE fresco_commit fresco_compile_options fresco_warnings)
 endfunction()
 
 add_library(fresco_test_options INTERFACE)

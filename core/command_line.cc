@@ -100,9 +100,11 @@ std::string Describe(const CLI::ParseError& error, const CLI::App& command) {
 
 }  // namespace
 
-Program::Program(const std::string& name, const std::string& description, LogStyle style)
+Program::Program(const std::string& name, const std::string& description, LogStyle style, const Build& build)
     : command_line_(description, name), style_(style) {
-  command_line_.set_version_flag("--version", kSoftwareVersion);
+  command_line_.set_version_flag(
+      "--version", fmt::format("{} {}, commit {}{}", name, kSoftwareVersion, build.commit,
+                               build.arithmetic.empty() ? "" : ", arithmetic " + build.arithmetic));
 }
 
 int Program::Run(int argc, const char* const* argv, const std::function<int()>& run) {

@@ -15,11 +15,17 @@ enum class LogStyle {
   kTimed,  ///< with time and process id, for a program that serves a run
 };
 
+/// What --version shows beside the version.
+struct Build {
+  std::string commit;           ///< kSourceCommit (core/installation.h)
+  std::string arithmetic = {};  ///< that of networks, as chosen at the start; empty if it computes none
+};
+
 /// A program: its command line, log and signals.
 class Program {
  public:
   /// `name` is the program's name in its log and in texts, `description` its purpose, for --help.
-  Program(const std::string& name, const std::string& description, LogStyle style);
+  Program(const std::string& name, const std::string& description, LogStyle style, const Build& build);
 
   /// Has --help and --version; the program adds its own options and commands.
   CLI::App& command_line() { return command_line_; }

@@ -22,6 +22,8 @@ bool CanBeRun(const std::filesystem::path& path) {
 
 }  // namespace
 
+const char* const kSoftwareVersion = FRESCO_VERSION;  // from core/CMakeLists.txt
+
 std::string ProgramName() {
   return program_invocation_name;
 }

@@ -9,7 +9,11 @@
 namespace fresco {
 
 /// The software's version, written into files and shown by --version.
-inline constexpr char kSoftwareVersion[] = "0.1.0";
+extern const char* const kSoftwareVersion;
+
+/// The commit that this program was built from, as `git describe` names it; "unknown" if it was built outside
+/// of Fresco's repository. Only programs have it (cmake/FrescoCommit.cmake), so no library may use it.
+extern const char* const kSourceCommit;
 
 /// How this program was called, for commands that a person is told to type.
 std::string ProgramName();

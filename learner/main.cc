@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/identifier.h"
+#include "core/installation.h"
 #include "learner/learner_process.h"
 #include "msgs/experiment.h"
 #include "msgs/ready_experiments.h"
@@ -69,7 +70,7 @@ int Main(int argc, char** argv) {
   Program program(
       "fresco-learner",
       "Trains a DQN from the transitions that actors send over LCM. `fresco train` starts it for you.",
-      LogStyle::kTimed);
+      LogStyle::kTimed, {kSourceCommit, CurrentArithmetic().name});
   CLI::App& app = program.command_line();
   CLI::Option* config = app.add_option("--config", arguments.config, ConfigHelp());
   app.add_option("--set", arguments.settings, "Overrides one field: path=value; may be repeated");

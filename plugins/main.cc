@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "core/command_line.h"
 #include "core/error.h"
+#include "core/installation.h"
 #include "core/random.h"
 #include "core/signals.h"
 #include "plugins/plugin_world.h"
@@ -84,7 +85,7 @@ int Main(int argc, char** argv) {
   Arguments arguments;
   std::function<int()> command;
   Program program("fresco-world", "Shows and tries the world of a plug-in (fresco/world.h).",
-                  LogStyle::kPlain);
+                  LogStyle::kPlain, {kSourceCommit});
   CLI::App& app = program.command_line();
   app.require_subcommand(1);
   const auto add = [&](const char* name, const char* description, int (*run)(const Arguments&)) {

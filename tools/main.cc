@@ -1,11 +1,13 @@
 // The program `fresco`, which tools/fresco builds and runs.
+#include "core/installation.h"
+#include "nn/arithmetic.h"
 #include "tools/subcommands.h"
 
 int main(int argc, char** argv) {
   using namespace fresco;
   Program program("fresco",
                   "Fresco trains agents over LCM with the same result to the bit, whatever happens.",
-                  LogStyle::kPlain);
+                  LogStyle::kPlain, {kSourceCommit, CurrentArithmetic().name});
   CLI::App& app = program.command_line();
   app.require_subcommand(1);
   Command command;

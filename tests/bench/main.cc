@@ -8,10 +8,10 @@
 #include <optional>
 #include <thread>
 
-#include "bench_commit.h"
 #include "core/command_line.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/installation.h"
 #include "nn/arithmetic.h"
 #include "nn/arithmetic_option.h"
 #include "tests/bench/subjects.h"
@@ -49,7 +49,7 @@ std::string ProcessorName() {
 
 BenchHead Head() {
   return {ProcessorName(), static_cast<int>(std::thread::hardware_concurrency()), CurrentArithmetic().name,
-          FRESCO_BENCH_COMPILER, FRESCO_BENCH_COMMIT};
+          FRESCO_BENCH_COMPILER, kSourceCommit};
 }
 
 Results Measure(const std::vector<Subject>& subjects, const std::vector<std::string>& names, double seconds) {
@@ -127,7 +127,7 @@ int Main(int argc, char** argv) {
       "fresco bench",
       "Measures how fast Fresco is. Each row is a quantity beside its roof, its peer or its limit, "
       "measured in turns in the same run.",
-      LogStyle::kPlain);
+      LogStyle::kPlain, {kSourceCommit, CurrentArithmetic().name});
   CLI::App& app = program.command_line();
   app.add_option("--filter", arguments.filter,
                  "Measure the rows whose name has a match of this regular expression");

@@ -95,7 +95,7 @@ TEST(CommandLine, SaysWhatIsMissingOrTooMuch) {
 TEST(Program, EndsWithTheStatusOfWhatItsFunctionReturnsOrThrows) {
   const auto status = [](const std::string& name, const std::function<int()>& run) {
     const char* const argv[] = {name.c_str()};
-    return Program(name, "", LogStyle::kPlain).Run(1, argv, run);
+    return Program(name, "", LogStyle::kPlain, {"unknown"}).Run(1, argv, run);
   };
   EXPECT_EQ(status("returns", [] { return 7; }), 7);
   EXPECT_EQ(status("is-used-wrongly", []() -> int { throw UsageError("x"); }), 2);
