@@ -36,6 +36,7 @@ RESERVED = {
     "google/protobuf/": {"msgs"},
     "png.h": {"msgs"},
     "onnx/": {"exports"},
+    "curses.h": {"tools"},
     "nlohmann/": {"plugins", "storage", "logs", "processes", "report", "paper", "soak", "tools"},
 }
 # What may know the UAV's world: its own rooms, and its files in rooms that serve every world. The others ask a world
