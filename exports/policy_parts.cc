@@ -35,9 +35,9 @@ std::unique_ptr<PolicyFormulas> FormulasOf(const World& world) {
   const std::optional<StateFormulas> of_state = world.Formulate(formulas->list);
   if (!of_state) {
     throw UsageError(
-        "the world of this policy can't state what the network sees as formulas (fields that are drawn over "
-        "a "
-        "map can't); only --format csv can be written");
+        "the world of this policy can't state as formulas what the network sees, as fields that are drawn "
+        "over a "
+        "map can't; give --config of one field over the map, or --format csv");
   }
   formulas->of_state = *of_state;
   formulas->used.resize(formulas->list.formulas().size());

@@ -1,6 +1,6 @@
 // Writes policies of every kind in every format, with states and what Fresco itself computes there, for
-// exports_test.py: in a folder for each, policy.onnx, policy.h and policy.csv, the binary files states,
-// values (single precision), masks (bytes) and actions (int32), and sizes.json.
+// exports_test.py: in a folder for each, policy.network, policy.onnx, policy.h and policy.csv, the binary
+// files states, values (single precision), masks (bytes) and actions (int32), and sizes.json.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -47,6 +47,12 @@ constexpr Sample kSamples[] = {
     {"acrobot", "acrobot {}"},
 };
 
+/// Fields that are drawn over a map.
+constexpr Sample kCity = {
+    "city",
+    "scenario { map_row: \"......\" map_row: \".BB.R.\" map_row: \"S....S\" slots: 30 "
+    "random_sensors { per_episode: true count: 2 } coverage_radius_m: 60 } agent { set_network {} }"};
+
 template <class Number>
 std::string_view Bytes(const std::vector<Number>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
@@ -61,6 +67,7 @@ void Write(const std::filesystem::path& folder, const Experiment& experiment) {
     parameters[i] += 0.01f * static_cast<float>(i % 7 - 3);  // biases, too, are not 0
   }
   const StoredNetwork stored{experiment, 3, 300, parameters};
+  WriteFileAtomically(folder / "policy.network", SerializeNetworkFile(stored));
   WriteFileAtomically(folder / "policy.onnx", OnnxModel(stored));
   WriteFileAtomically(folder / "policy.h", CppHeader(stored, "exported"));
   WriteFileAtomically(folder / "policy.csv", ParametersCsv(stored));
@@ -106,5 +113,11 @@ int main(int argc, char** argv) {
   for (const auto& [name, config] : fresco::kSamples) {
     fresco::Write(std::filesystem::path(argv[1]) / name, fresco::Experiment::Parse(config, name));
   }
+  const fresco::Experiment city = fresco::Experiment::Parse(fresco::kCity.config, fresco::kCity.name);
+  const std::filesystem::path folder = std::filesystem::path(argv[1]) / fresco::kCity.name;
+  std::filesystem::create_directories(folder);
+  fresco::WriteFileAtomically(
+      folder / "policy.network",
+      fresco::SerializeNetworkFile({city, 0, 0, city.network()->InitialParameters(1)}));
   return EXIT_SUCCESS;
 }
