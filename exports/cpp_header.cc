@@ -267,7 +267,7 @@ class StatementWriter {
       case Operation::kJoin:
         break;
     }
-    CheckFailed(__FILE__, __LINE__, "an operation that is computed entry by entry");
+    CheckFailed(__FILE_NAME__, __LINE__, "an operation that is computed entry by entry");
   }
 
   const Formulas& formulas_;

@@ -191,7 +191,7 @@ class FormulaWriter {
         }
         return graph_.NodeAlong("Concat", -1, operands);
     }
-    CheckFailed(__FILE__, __LINE__, "an operation of formulas.h");
+    CheckFailed(__FILE_NAME__, __LINE__, "an operation of formulas.h");
   }
 
   GraphWriter& graph_;
