@@ -12,7 +12,7 @@
 namespace fresco {
 namespace {
 
-constexpr int64_t kForget_us = 10'000'000;
+constexpr int64_t kForgetUs = 10'000'000;
 
 /// The newest version of the current network that the actor has; -1: none.
 int32_t NewestVersion(const actor_status_t& status) {
@@ -90,8 +90,8 @@ bool RunWatch::HasRun() const {
 
 void RunWatch::Forget(int64_t now_us) {
   for (auto& [run_id, run] : runs_) {
-    std::erase_if(run.actors, [&](const auto& actor) { return now_us - actor.second.heard_us > kForget_us; });
-    if (now_us - run.heard_us > kForget_us) {
+    std::erase_if(run.actors, [&](const auto& actor) { return now_us - actor.second.heard_us > kForgetUs; });
+    if (now_us - run.heard_us > kForgetUs) {
       run.learner.reset();
     }
   }

@@ -19,6 +19,7 @@
 #include "core/error.h"
 #include "core/installation.h"
 #include "core/memory.h"
+#include "msgs/channels.h"
 #include "nn/arithmetic.h"
 #include "tools/subcommands.h"
 
@@ -35,9 +36,12 @@ struct Finding {
   std::string command = {};  ///< mends it; empty if nothing has to be mended
 };
 
+// For Debian's table of rules, /etc/nftables.conf. As the first rule, so that no other one drops it before.
+constexpr char kAcceptMulticast[] = "nft insert rule inet filter input ip daddr 224.0.0.0/4 accept";
+
 struct DoctorOptions {
   std::string lcm_url = kDefaultLcmUrl;
-  std::string channel_prefix = "FRESCO";
+  std::string channel_prefix = kDefaultChannelPrefix;
   std::string folder = ".";
   std::string format = "text";
 };
@@ -80,24 +84,28 @@ Finding CheckRoute(const MulticastEndpoint& endpoint) {
   return {"multicast_route", Health::kGood, "to " + endpoint.group};
 }
 
-/// The URL with the next port.
-std::string UrlOfNextPort(const std::string& url, uint16_t port) {
-  std::string next = url;
-  const std::string old_port = fmt::format(":{}", port);
-  next.replace(next.find(old_port), old_port.size(), fmt::format(":{}", port == 65'535 ? 1024 : port + 1));
-  return next;
+/// A training beside other programs: on the next port.
+std::string TrainElsewhere(const LcmUrl& url) {
+  if (!url.multicast) {
+    return fmt::format("{} train --lcm-url '{}' --set run.channel_prefix=OTHER", ProgramName(), url.text);
+  }
+  const uint16_t port = url.multicast->port;
+  const std::string old_port = fmt::format(":{}?", port);
+  std::string next = url.text;
+  next.replace(next.find(old_port), old_port.size(), fmt::format(":{}?", port == 65'535 ? 1024 : port + 1));
+  return fmt::format("{} train --lcm-url '{}'", ProgramName(), next);
 }
 
-Finding CheckPort(const MulticastEndpoint& endpoint, const std::string& url) {
+Finding CheckPort(const LcmUrl& url) {
+  const MulticastEndpoint& endpoint = *url.multicast;
   UdpSocket udp;
   udp.Set(SO_REUSEADDR, 1);  // as LCM does
-  udp.Set(SO_REUSEPORT, 1);
   const sockaddr_in address = Address("0.0.0.0", endpoint.port);
   if (bind(udp.descriptor(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     return {"port", Health::kFailure,
             fmt::format("UDP port {} can't be used: {} (`ss -ulpn` shows who has it)", endpoint.port,
                         std::strerror(errno)),
-            fmt::format("{} train --lcm-url '{}'", ProgramName(), UrlOfNextPort(url, endpoint.port))};
+            TrainElsewhere(url)};
   }
   return {"port", Health::kGood, fmt::format("UDP port {} can be shared", endpoint.port)};
 }
@@ -126,24 +134,23 @@ Finding CheckReach(const std::string& url) {
                        : fmt::format("{}: the run crosses networks", url.substr(at, 5))};
 }
 
-/// Listens for a second: other runs on this port would be heard, and hear this one.
+/// Listens for a while: other runs on this port would be heard, and hear this one.
 Finding CheckOtherTraffic(const DoctorOptions& options) {
-  constexpr int64_t kListen_us = 1'200'000;  // every run announces itself once a second
+  constexpr int64_t kListenUs = 1'200'000;  // a run announces itself every half second
+  const std::string announcements_channel = ChannelsWithPrefix(options.channel_prefix).run;
   const auto bus = OpenLcmBus(options.lcm_url);
   int64_t messages = 0;
   int64_t announcements = 0;
   bus->SubscribeToAll([&](const LcmEvent& event) {
     ++messages;
-    announcements += event.channel == options.channel_prefix + "_RUN" ? 1 : 0;
+    announcements += event.channel == announcements_channel ? 1 : 0;
   });
-  for (const int64_t end_us = MonotonicMicroseconds() + kListen_us; MonotonicMicroseconds() < end_us;) {
+  for (const int64_t end_us = MonotonicMicroseconds() + kListenUs; MonotonicMicroseconds() < end_us;) {
     bus->Poll(end_us - MonotonicMicroseconds());
   }
   if (announcements > 0) {
-    const LcmUrl url = ParseLcmUrl(options.lcm_url);
-    return {"other_traffic", Health::kWarning, "another run is on this port; a second one is refused",
-            fmt::format("{} train --lcm-url '{}'", ProgramName(),
-                        UrlOfNextPort(options.lcm_url, url.multicast ? url.multicast->port : 0))};
+    return {"other_traffic", Health::kWarning, "another run is on this bus; a second one is refused",
+            TrainElsewhere(ParseLcmUrl(options.lcm_url))};
   }
   return {"other_traffic", Health::kGood,
           messages == 0 ? "none" : fmt::format("{} messages in 1.2 s, of no run", messages)};
@@ -173,7 +180,7 @@ Finding CheckDelivery(const DoctorOptions& options) {
   const double lost = 1 - static_cast<double>(received) / kMessages;
   if (received == 0) {
     return {"delivery", Health::kFailure, "no message came back; a firewall drops multicast, most likely",
-            fmt::format("nft add rule inet filter input ip daddr {} accept", "224.0.0.0/4")};
+            kAcceptMulticast};
   }
   const std::string found = fmt::format("{:.2f} % of {} messages of 1350 bytes lost at {:.0f} a second",
                                         100 * lost, kMessages, rate);
@@ -222,23 +229,14 @@ Finding CheckDisk(const std::string& folder) {
   return {"disk", Health::kGood, found};
 }
 
-/// A program that only some commands need.
-Finding CheckProgram(const std::string& name, const std::string& program, const std::string& purpose,
-                     const std::vector<std::string>& files, const std::string& packages) {
-  std::string missing;
+/// Whether a function that says what a command needs throws nothing.
+template <class Require>
+Finding CheckProgram(const std::string& name, const std::string& purpose, const std::string& command,
+                     Require require) {
   try {
-    RequireProgram(program, packages);
-  } catch (const Error&) {
-    missing = program;
-  }
-  for (const std::string& file : files) {
-    if (!std::filesystem::exists(file)) {
-      missing += (missing.empty() ? "" : ", ") + file;
-    }
-  }
-  if (!missing.empty()) {
-    return {name, Health::kWarning, fmt::format("{} missing: {}", missing, purpose),
-            "apt-get install -y " + packages};
+    require();
+  } catch (const Error& error) {
+    return {name, Health::kWarning, error.what(), command};
   }
   return {name, Health::kGood, "installed: " + purpose};
 }
@@ -253,7 +251,7 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
   };
   if (url.multicast) {
     add(CheckRoute(*url.multicast));
-    add(CheckPort(*url.multicast, options.lcm_url));
+    add(CheckPort(url));
     add(CheckBuffer(*url.multicast));
     add(CheckReach(url.text));
   }
@@ -264,17 +262,18 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
         add(CheckDelivery(options));
       }
     } catch (const Error& error) {
-      add({"delivery", Health::kFailure, error.what(),
-           "nft add rule inet filter input ip daddr 224.0.0.0/4 accept"});
+      add({"delivery", Health::kFailure, error.what(), kAcceptMulticast});
     }
   }
   add(CheckProcessor());
   add(CheckMemory());
   add(CheckDisk(options.folder));
-  add(CheckProgram("gnuplot", "gnuplot", "draws the report's curves", {}, "gnuplot-nox"));
-  add(CheckProgram("lcm_spy", "java", "shows a live run (fresco spy)",
-                   {"/usr/share/java/lcm.jar", "/usr/share/java/jchart2d.jar"},
-                   "default-jre liblcm-java libjchart2d-java"));
+  add(CheckProgram("gnuplot", "draws the report's curves", "apt-get install -y gnuplot-nox",
+                   [] { RequireProgram("gnuplot", "gnuplot-nox"); }));
+  const bool in_source_tree = ProgramName().ends_with("tools/fresco");
+  add(CheckProgram("lcm_spy", "shows a live run (fresco spy)",
+                   in_source_tree ? ProgramName() + " spy" : "apt-get install -y ./fresco-spy_*.deb",
+                   RequireSpy));
   return findings;
 }
 

@@ -101,7 +101,7 @@ int Spy(SpyOptions options) {
   ChannelsWithPrefix(options.channel_prefix);
   OpenLcmBus(options.lcm_url);  // throws if that fails; Java's LCM would try again for ever
   RequireDisplay();
-  RequireProgram("java", "default-jre");
+  RequireSpy();
   if (options.open == std::vector<std::string>{"all"}) {
     options.open = kAllWindows;
   }
@@ -117,6 +117,11 @@ int Spy(SpyOptions options) {
 }
 
 }  // namespace
+
+void RequireSpy() {
+  RequireProgram("java", "default-jre");
+  ClassPath();
+}
 
 void AddSpy(CLI::App& app, Command& command) {
   auto options = std::make_shared<SpyOptions>();

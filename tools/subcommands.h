@@ -25,6 +25,9 @@ void AddSpy(CLI::App& app, Command& command);
 void AddDoctor(CLI::App& app, Command& command);
 void AddBench(CLI::App& app, Command& command);
 
+/// Throws UsageError that says what to install unless this host has what `fresco spy` needs.
+void RequireSpy();
+
 // Subcommands of `fresco log` that have a file of their own.
 void AddLogRecord(CLI::App& log, Command& command);
 void AddLogPlay(CLI::App& log, Command& command);

@@ -65,13 +65,13 @@ void Listen(Bus& bus, int64_t duration_us) {
 }
 
 int Watch(const WatchOptions& options) {
-  constexpr int64_t kOnce_us = 2'500'000;  // a learner sends the names of its world every second
-  constexpr int64_t kFrame_us = 500'000;
+  constexpr int64_t kOnceUs = 2'500'000;  // a learner sends the names of its world every second
+  constexpr int64_t kFrameUs = 500'000;
   RunWatch watch(ChannelsWithPrefix(options.channel_prefix));
   const auto bus = OpenLcmBus(options.lcm_url);
   bus->SubscribeToAll([&](const LcmEvent& event) { watch.Add(event, MonotonicMicroseconds()); });
   if (options.once) {
-    Listen(*bus, kOnce_us);
+    Listen(*bus, kOnceUs);
     fmt::print("{}", watch.Text(MonotonicMicroseconds()));
     return watch.HasRun() ? 0 : 1;
   }
@@ -81,7 +81,7 @@ int Watch(const WatchOptions& options) {
   }
   const bool drawn = terminal != nullptr && terminal->usable();
   while (!StopSignal::Requested() && !(drawn && terminal->ShallQuit())) {
-    Listen(*bus, drawn ? kFrame_us : kOnce_us);
+    Listen(*bus, drawn ? kFrameUs : kOnceUs);
     const std::string text = watch.Text(MonotonicMicroseconds());
     if (drawn) {
       terminal->Show(text + "\nq ends\n");

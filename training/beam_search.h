@@ -1,8 +1,9 @@
 // A beam search for a good episode: because the world is known, the values of a network can guide a search
 // through many episodes side by side. Of the partial episodes of each length it keeps the `width` best ones,
 // those with the largest sum of what they earned before their last action and of what the network expects of
-// that action. It leaves out each one for which it has another that is at least as good: in its state
-// (WorldDescription::preferences) and in what it has earned. The result is a pure function of world, seed,
+// that action. It takes none if it has one already that is at least as good: in its state
+// (WorldDescription::preferences) and in what it has earned; one that is better takes the place of the first
+// that it is better than. The result is a pure function of world, seed,
 // parameters and width. Only one thread at a time may use an object.
 #pragma once
 

@@ -26,8 +26,14 @@ int main() {
   std::vector<float> state(kStateSize), values(kActions);
   bool mask[kActions];
   while (std::fread(state.data(), sizeof(float), kStateSize, stdin) == kStateSize) {
+#ifdef MASK_IS_INPUT
+    if (std::fread(mask, 1, kActions, stdin) != kActions) return 1;
+    Values(state.data(), values.data());
+    const int action = Act(state.data(), mask);
+#else
     Values(state.data(), values.data(), mask);
     const int action = Act(state.data());
+#endif
     std::fwrite(&action, sizeof action, 1, stdout);
     std::fwrite(mask, 1, kActions, stdout);
     std::fwrite(values.data(), sizeof(float), kActions, stdout);
@@ -57,12 +63,17 @@ class Exports(unittest.TestCase):
     def test_header_has_the_same_bits(self):
         def check(folder, sizes):
             (folder / "driver.cc").write_text(DRIVER)
-            subprocess.run(["g++", "-std=c++17", "-O2", *FMA, "-Wall", "-Wextra", "-Werror", "-pedantic", "driver.cc", "-o", "driver"],
+            subprocess.run(["g++", "-std=c++17", "-O2", *FMA, "-Wall", "-Wextra", "-Werror", "-pedantic",
+                            *(["-DMASK_IS_INPUT"] if sizes["mask_is_input"] else []), "driver.cc", "-o", "driver"],
                            cwd=folder, check=True)
-            with open(folder / "states", "rb") as states:
-                found = subprocess.run([folder / "driver"], stdin=states, capture_output=True, check=True).stdout
             actions = (folder / "actions").read_bytes()
             masks = (folder / "masks").read_bytes()
+            states = (folder / "states").read_bytes()
+            if sizes["mask_is_input"]:
+                states = b"".join(
+                    states[4 * sizes["fields"] * i:4 * sizes["fields"] * (i + 1)]
+                    + masks[sizes["actions"] * i:sizes["actions"] * (i + 1)] for i in range(sizes["states"]))
+            found = subprocess.run([folder / "driver"], input=states, capture_output=True, check=True).stdout
             values = (folder / "values").read_bytes()
             count = sizes["actions"]
             expected = b"".join(
@@ -83,9 +94,10 @@ class Exports(unittest.TestCase):
         runtime = self.folder / "node_modules/onnxruntime-web/dist/ort.node.min.mjs"
         def check(folder, sizes):
             output = subprocess.run(["node", HERE / "run_onnx.mjs", runtime, folder / "policy.onnx", folder / "states",
-                                     str(sizes["fields"])], capture_output=True, check=True, text=True).stdout
+                                     str(sizes["fields"]), *([folder / "masks"] if sizes["mask_is_input"] else [])],
+                                    capture_output=True, check=True, text=True).stdout
             found = json.loads(output)
-            self.assertEqual(found["mask"], list((folder / "masks").read_bytes()))
+            self.assertEqual(found["mask"], None if sizes["mask_is_input"] else list((folder / "masks").read_bytes()))
             values = read(folder / "values", "f")
             scale = max(abs(value) for value in values)
             self.assertLess(max(abs(a - b) for a, b in zip(found["values"], values)), 1e-5 * scale)

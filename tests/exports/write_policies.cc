@@ -45,6 +45,8 @@ constexpr Sample kSamples[] = {
      "agent { set_network {} safe_action_mask: true coverage_mask: true }"},
     {"cartpole", "cartpole {}"},
     {"acrobot", "acrobot {}"},
+    // A world whose mask only its own code knows.
+    {"python", "python { object: \"exported_world:World\" path: \"" FRESCO_SOURCE_DIR "/tests/exports\" }"},
 };
 
 /// Fields that are drawn over a map.
@@ -72,6 +74,8 @@ void Write(const std::filesystem::path& folder, const Experiment& experiment) {
   WriteFileAtomically(folder / "policy.h", CppHeader(stored, "exported"));
   WriteFileAtomically(folder / "policy.csv", ParametersCsv(stored));
 
+  Formulas formulas;
+  const bool mask_is_input = !world.Formulate(formulas)->mask;
   const auto workspace = network.NewWorkspace(1, NetworkWorkspace::Passes::kForward);
   RandomStream stream(1, RandomPurpose::kTest, 0, 0);
   std::vector<float> states;
@@ -98,7 +102,8 @@ void Write(const std::filesystem::path& folder, const Experiment& experiment) {
   WriteFileAtomically(folder / "sizes.json", nlohmann::json{{"states", kStates},
                                                             {"fields", world.state_size()},
                                                             {"actions", world.actions()},
-                                                            {"parameters", network.parameter_count()}}
+                                                            {"parameters", network.parameter_count()},
+                                                            {"mask_is_input", mask_is_input}}
                                                  .dump());
 }
 

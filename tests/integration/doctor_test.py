@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -69,6 +70,16 @@ class Doctor(unittest.TestCase):
         url = re.search(r"--lcm-url '([^']+)'", port["command"]).group(1)
         self.assertIn(":7668", url)
         self.assertTrue(self.examine(take, 0, f"--lcm-url '{url}'")["works"])
+
+    def test_says_which_rule_lets_multicast_through_a_firewall(self):
+        if not shutil.which("nft"):
+            self.skipTest("there is no `nft` (Debian package nftables)")
+        drop = (f"{ROUTE}; nft add table inet filter; "
+                "nft add chain inet filter input '{ type filter hook input priority 0; }'; "
+                "nft add rule inet filter input udp dport 7667 drop")
+        delivery = findings(self.examine(drop, 1))["delivery"]
+        self.assertEqual(delivery["health"], "failure")
+        self.assertTrue(self.examine(f"{drop}; {delivery['command']}", 0)["works"])
 
     def test_warns_of_small_buffers(self):
         url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=1000000000"

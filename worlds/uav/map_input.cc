@@ -15,8 +15,7 @@ constexpr size_t kMaximumPairs = 8'000'000;  // 48 MB
 
 /// The square of a radius, in cells, with the tolerance of IsWithin.
 double SquareInCells(double radius_m, double cell_m) {
-  constexpr double kLeeway = 1 + 1e-9;
-  const double cells = radius_m / cell_m * kLeeway;
+  const double cells = radius_m / cell_m * kRadiusLeeway;
   return cells * cells;
 }
 

@@ -18,12 +18,11 @@ constexpr int kSensorInputs = 7;  // of each sensor
 
 /// The sum of the sensors' weights. It is a sum of whole numbers, so their order changes no bit.
 double TotalWeight(std::span<const Sensor> sensors) {
-  constexpr double kParts = double{uint64_t{1} << 32};
   int64_t total = 0;
   for (const Sensor& sensor : sensors) {
-    total += static_cast<int64_t>(sensor.weight * kParts);
+    total += static_cast<int64_t>(sensor.weight * kPartsOfWeight);
   }
-  return static_cast<double>(total) / kParts;
+  return static_cast<double>(total) / kPartsOfWeight;
 }
 
 /// The grid's longer side.

@@ -41,6 +41,9 @@ inline constexpr int kTimeMarginInput = 4;
 inline constexpr int kEnergyMarginInput = 5;
 inline constexpr int kAoiInput = 5;
 
+/// Weights are summed in whole numbers of such parts, so that their order changes no bit of the sum.
+inline constexpr double kPartsOfWeight{uint64_t{1} << 32};
+
 /// What a world states about an observation for agent.set_network with at most so many sensors.
 ObservationSets SetsOf(int sensors, bool has_map);
 

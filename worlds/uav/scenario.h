@@ -80,12 +80,14 @@ struct Scenario {
 /// with every mathematical library. `cell_m` is the side of a cell.
 double HorizontalDistance(Cell cell, double cell_m, const Sensor& sensor);
 
-/// Whether a sensor at this horizontal distance is covered: it is at most R, with a tolerance of a billionth.
-/// So a radius converted to a transmission power and back covers the same cells, and so does one whose last
-/// bits depend on the mathematical library.
+/// The tolerance of IsWithin: a billionth.
+inline constexpr double kRadiusLeeway = 1 + 1e-9;
+
+/// Whether a sensor at this horizontal distance is covered: it is at most R, with the tolerance. So a radius
+/// converted to a transmission power and back covers the same cells, and so does one whose last bits depend
+/// on the mathematical library.
 inline bool IsWithin(double coverage_radius_m, double distance_m) {
-  constexpr double kLeeway = 1 + 1e-9;
-  return distance_m <= coverage_radius_m * kLeeway;
+  return distance_m <= coverage_radius_m * kRadiusLeeway;
 }
 
 /// Returns `count` >= 0 sensors of weight 1 at random places, uniform over the whole area of the grid, which

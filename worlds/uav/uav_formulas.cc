@@ -153,7 +153,6 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
   for (size_t sensor = 0; sensor < layout.most; ++sensor) {
     weights.push_back(state(layout.sensor(sensor) + 2));
   }
-  constexpr double kPartsOfWeight{uint64_t{1} << 32};
   const Term total_weight = Sum(Floor(ToDouble(formulas.Join(weights)) * kPartsOfWeight)) / kPartsOfWeight;
 
   std::vector<Term> observation = {cells(column),
@@ -171,7 +170,7 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
     const Term y_m = ToDouble(state(layout.sensor(sensor) + 1));
     const Term is_absent = AtMost(weights[sensor], 0.0);
     const Term distance_m = SquareRoot((east_m - x_m) * (east_m - x_m) + (north_m - y_m) * (north_m - y_m));
-    const Term is_covered = ToSingle(AtMost(distance_m, radius_m * (1 + 1e-9)));  // IsWithin
+    const Term is_covered = ToSingle(AtMost(distance_m, radius_m * kRadiusLeeway));  // IsWithin
     const Term item = formulas.Join({formulas.Single({1}), metres(x_m - east_m), metres(y_m - north_m),
                                      metres(distance_m), is_covered, state(kAoiField + sensor) / slots,
                                      ToSingle(ToDouble(weights[sensor]) / total_weight)});
