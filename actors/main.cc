@@ -69,17 +69,22 @@ int Main(int argc, char** argv) {
       "one.",
       LogStyle::kTimed, {kSourceCommit, CurrentArithmetic().name});
   CLI::App& app = program.command_line();
-  app.add_option("--lcm-url", arguments.lcm_url, "LCM URL of the learner")->capture_default_str();
-  app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
+  app.add_option("--lcm-url", arguments.lcm_url, "LCM URL of the learner")
+      ->type_name("URL")
       ->capture_default_str();
-  app.add_option("--run-id", arguments.run_id, "Serve this run only (16 hexadecimal digits)");
+  app.add_option("--channel-prefix", arguments.channel_prefix, "First part of the channels' names")
+      ->type_name("PREFIX")
+      ->capture_default_str();
+  app.add_option("--run-id", arguments.run_id, "Serve this run only (16 hexadecimal digits)")
+      ->type_name("RUN_ID");
   AddBusOptions(app, arguments.bus);
   app.add_option("--environments", arguments.environments,
                  "Episodes flown side by side; 0: as the run's configuration says")
       ->check(CLI::Range(0, 4096));
   app.add_option(
-      "--allow-code", arguments.allowed_code,
-      "A plug-in's library or a Python module's file that a run may make this actor run; may be repeated");
+         "--allow-code", arguments.allowed_code,
+         "A plug-in's library or a Python module's file that a run may make this actor run; may be repeated")
+      ->type_name("FILE");
   AddArithmeticOption(app);
   app.add_flag("--once", arguments.once, "End with the first run instead of waiting for the next");
   return program.Run(argc, argv, [&] {

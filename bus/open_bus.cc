@@ -7,15 +7,17 @@ namespace fresco {
 
 void AddKeyFileOption(CLI::App& app, KeyFile& key_file) {
   app.add_option_function<std::string>(
-      "--key-file", [&key_file](const std::string& file) { key_file = file; },
-      "File with the run's key: accept only messages that are authenticated with it");
+         "--key-file", [&key_file](const std::string& file) { key_file = file; },
+         "File with the run's key: accept only messages that are authenticated with it")
+      ->type_name("FILE");
 }
 
 void AddBusOptions(CLI::App& app, BusOptions& options) {
   AddKeyFileOption(app, options.key_file);
   app.add_option_function<std::string>(
-      "--disturb", [&options](const std::string& text) { options.disturbance = ParseLossOptions(text); },
-      "For tests: lose, repeat, delay and corrupt sent messages, e.g. drop=0.01,delay=0.05,seed=3");
+         "--disturb", [&options](const std::string& text) { options.disturbance = ParseLossOptions(text); },
+         "For tests: lose, repeat, delay and corrupt sent messages, e.g. drop=0.01,delay=0.05,seed=3")
+      ->type_name("FAULTS");
 }
 
 std::unique_ptr<Bus> OpenBus(const std::string& url, const BusOptions& options) {

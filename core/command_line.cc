@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/help_formatter.h"
 #include "core/installation.h"
 #include "core/signals.h"
 
@@ -102,6 +103,8 @@ std::string Describe(const CLI::ParseError& error, const CLI::App& command) {
 
 Program::Program(const std::string& name, const std::string& description, LogStyle style, const Build& build)
     : command_line_(description, name), style_(style) {
+  command_line_.formatter(std::make_shared<HelpFormatter>());
+  command_line_.get_help_ptr()->description("Print this help");
   command_line_.set_version_flag(
       "--version", fmt::format("{} {}, commit {}{}", name, kSoftwareVersion, build.commit,
                                build.arithmetic.empty() ? "" : ", arithmetic " + build.arithmetic));

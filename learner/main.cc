@@ -72,14 +72,17 @@ int Main(int argc, char** argv) {
       "Trains a DQN from the transitions that actors send over LCM. `fresco train` starts it for you.",
       LogStyle::kTimed, {kSourceCommit, CurrentArithmetic().name});
   CLI::App& app = program.command_line();
-  CLI::Option* config = app.add_option("--config", arguments.config, ConfigHelp());
-  app.add_option("--set", arguments.settings, "Overrides one field: path=value; may be repeated");
-  app.add_option("--lcm-url", arguments.lcm_url, "Overrides run.lcm_url");
-  CLI::Option* out = app.add_option("--out", arguments.out, "The run's folder");
+  CLI::Option* config = app.add_option("--config", arguments.config, ConfigHelp())->type_name("EXPERIMENT");
+  app.add_option("--set", arguments.settings, "Overrides one field: path=value; may be repeated")
+      ->type_name("PATH=VALUE");
+  app.add_option("--lcm-url", arguments.lcm_url, "Overrides run.lcm_url")->type_name("URL");
+  CLI::Option* out = app.add_option("--out", arguments.out, "The run's folder")->type_name("FOLDER");
   app.add_option("--resume", arguments.resume, "Continue the run in this folder from its latest checkpoint")
+      ->type_name("FOLDER")
       ->excludes(config)
       ->excludes(out);
-  app.add_option("--run-id", arguments.run_id, "Id of the run (16 hexadecimal digits); default: a random id");
+  app.add_option("--run-id", arguments.run_id, "Id of the run (16 hexadecimal digits); default: a random id")
+      ->type_name("RUN_ID");
   AddBusOptions(app, arguments.bus);
   AddArithmeticOption(app);
   return program.Run(argc, argv, [&] {

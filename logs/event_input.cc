@@ -72,15 +72,18 @@ void AddEventInput(CLI::App& app, EventInputOptions& options) {
       ->check(CLI::Range(0.001, 1e9));
   SelectionOptions& selection = options.selection;
   app.add_option("--channel", selection.channels,
-                 "Only channels that match this regular expression; may be repeated");
+                 "Only channels that match this regular expression; may be repeated")
+      ->type_name("REGEX");
   app.add_option("--drop", selection.dropped,
-                 "Leave out channels that match this regular expression; may be repeated");
+                 "Leave out channels that match this regular expression; may be repeated")
+      ->type_name("REGEX");
   app.add_option("--start", selection.start_s, "Only events at least so many seconds after the first one")
       ->check(CLI::Range(0.0, 1e12));
   app.add_option("--stop", selection.stop_s, "Only events less than so many seconds after the first one")
       ->check(CLI::Range(0.0, 1e12));
   app.add_option("--run", selection.run,
-                 "Leave out Fresco's messages of other runs than this one (run_id of summary.json)");
+                 "Leave out Fresco's messages of other runs than this one (run_id of summary.json)")
+      ->type_name("RUN_ID");
 }
 
 EventInput::EventInput(const EventInputOptions& options) : selection_(options.selection) {

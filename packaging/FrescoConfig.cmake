@@ -1,11 +1,11 @@
-# find_package(Fresco): the libraries Fresco::worlds, Fresco::planner, Fresco::nn and Fresco::msgs, with what they need.
+# find_package(Fresco): the libraries Fresco::worlds, Fresco::planner, Fresco::nn, Fresco::msgs and Fresco::storage, with what they need.
 # Includes are those of the source tree: "worlds/world.h", "msgs/experiment.h", "msgs/proto/experiment.pb.h",
 # "fresco/run_t.hpp". The header of plug-ins is <fresco/world.h>.
 set(fresco_module_path ${CMAKE_MODULE_PATH})
 list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 set(fresco_missing)
 foreach(fresco_needed IN ITEMS Threads:g++ CLI11:libcli11-dev Eigen3:libeigen3-dev fmt:libfmt-dev Lcm:liblcm-dev
-    PNG:libpng-dev Protobuf:libprotobuf-dev Sodium:libsodium-dev spdlog:libspdlog-dev)
+    PNG:libpng-dev Protobuf:libprotobuf-dev Sodium:libsodium-dev nlohmann_json:nlohmann-json3-dev spdlog:libspdlog-dev)
   string(REPLACE ":" ";" fresco_needed ${fresco_needed})  # CMake's name, and Debian's of the package that has it
   list(POP_BACK fresco_needed fresco_debian_package)
   find_package(${fresco_needed} QUIET)

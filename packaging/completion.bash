@@ -13,8 +13,8 @@ _fresco() {
   # --format=text is three words for bash.
   [[ $current == "=" ]] && current=""
   [[ $previous == "=" ]] && previous=${COMP_WORDS[COMP_CWORD - 2]}
-  # The help of the option before the cursor, which takes a value: its line and the one below.
-  option=$(grep -E -A 1 "^  $previous [A-Z]{2,}" <<<"$help" 2>/dev/null)
+  # The help of the option before the cursor, if it takes a value: its line and those that continue it, as one line.
+  option=$(awk -v name="$previous" '/^  [^ ]/ || /^$/ { found = $1 == name && $2 ~ /^([A-Z_=]+|{.*})$/ } found' <<<"$help" | xargs -d '\n')
   if [[ $previous == --* && -n $option ]]; then
     if [[ $option =~ \{([^}]+)\} ]]; then
       choices=${BASH_REMATCH[1]//,/ }

@@ -90,8 +90,10 @@ int Main(int argc, char** argv) {
   app.require_subcommand(1);
   const auto add = [&](const char* name, const char* description, int (*run)(const Arguments&)) {
     CLI::App* subcommand = app.add_subcommand(name, description);
-    subcommand->add_option("--library", arguments.spec.library, "Path of the shared library")->required();
-    subcommand->add_option("--settings", arguments.spec.settings, "Text for the library");
+    subcommand->add_option("--library", arguments.spec.library, "Path of the shared library")
+        ->type_name("FILE")
+        ->required();
+    subcommand->add_option("--settings", arguments.spec.settings, "Text for the library")->type_name("TEXT");
     subcommand->add_option("--call-limit-s", arguments.spec.call_limit_s, "Seconds that a call may take")
         ->capture_default_str()
         ->check(CLI::Range(0.001, 1e6));

@@ -94,11 +94,9 @@ std::vector<std::string> BuiltInPolicies(const World& world) {
   return names;
 }
 
-/// Reads the network that a path names. The path may be a network file, the folder of a run (its
-/// best.network) or a checkpoint (its best network so far). Throws UsageError that says what a policy can be
-/// if the path is none of these.
+/// `others` are the names of the world's own policies.
 StoredNetwork ReadPolicy(const std::string& policy, const std::vector<std::string>& others,
-                         const std::string& option = "--policy") {
+                         const std::string& option) {
   const std::filesystem::path path = PolicyFile(policy, others, option);
   try {
     return ReadPolicyFile(path);
@@ -140,15 +138,19 @@ Experiment ExperimentOfNetwork(const PolicyChoice& choice, const StoredNetwork& 
 
 void AddPolicyOptions(CLI::App& app, PolicyChoice& choice) {
   app.add_option("--config", choice.config,
-                 ConfigHelp(std::string("the one of the trained policy, or ") + kDefaultExperiment));
-  app.add_option("--set", choice.settings, "Override one field: path=value; may be repeated");
-  app.add_option("--policy", choice.policy,
-                 std::string(kPolicyFiles) + "; in the UAV's world also aoi, distance or optimal")
+                 ConfigHelp(std::string("the one of the trained policy, or ") + kDefaultExperiment))
+      ->type_name("EXPERIMENT");
+  app.add_option("--set", choice.settings, "Override one field: path=value; may be repeated")
+      ->type_name("PATH=VALUE");
+  app.add_option(
+         "--policy", choice.policy,
+         std::string("What acts: ") + kPolicyFiles + "; in the UAV's world also aoi, distance or optimal")
+      ->type_name("POLICY")
       ->required();
   app.add_option(
          "--search", choice.search_width,
          "For a trained policy: search for the best episode with the network's values, and keep so many "
-         "partial episodes side by side; default: act greedily")
+         "partial episodes side by side, up to 4096; default: act greedily")
       ->check(CLI::Range(1, 4096));
   app.add_option("--time-limit-s", choice.limits.seconds,
                  "For the policy optimal: stop the search after so many seconds; default: no limit")
@@ -175,7 +177,7 @@ ChosenPolicy ReadChoice(const PolicyChoice& choice) {
       return {std::move(given), std::nullopt};
     }
   }
-  StoredNetwork network = ReadPolicy(choice.policy, built_in);
+  StoredNetwork network = ReadPolicy(choice.policy, built_in, "--policy");
   Experiment experiment = ExperimentOfNetwork(choice, network);
   if (choice.search_width > 0 && !experiment.world().description().copies) {
     throw UsageError(
@@ -185,8 +187,12 @@ ChosenPolicy ReadChoice(const PolicyChoice& choice) {
   return {std::move(experiment), std::move(network)};
 }
 
+StoredNetwork ReadTrainedNetwork(const std::string& policy, const std::string& option) {
+  return ReadPolicy(policy, {}, option);
+}
+
 Experiment StartFrom(const Experiment& experiment, const std::string& policy, const std::string& option) {
-  StoredNetwork network = ReadPolicy(policy, {}, option);
+  StoredNetwork network = ReadTrainedNetwork(policy, option);
   const std::vector<int> expected = experiment.network()->layer_sizes();
   const std::vector<int> found = network.experiment.network()->layer_sizes();
   if (expected != found) {

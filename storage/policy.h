@@ -47,6 +47,11 @@ struct ChosenPolicy {
 /// Reads the files that the choice names. Throws UsageError if they can't be used or do not fit together.
 ChosenPolicy ReadChoice(const PolicyChoice& choice);
 
+/// Reads the network of the folder of a run (its best.network), a network file or a checkpoint (its best
+/// network so far). Throws UsageError that begins with `option` and says what a policy can be if `policy` is
+/// none of these or can't be read.
+StoredNetwork ReadTrainedNetwork(const std::string& policy, const std::string& option);
+
 /// The experiment whose training starts from the network of a policy: the folder of a run, a network file or
 /// a checkpoint, as `option` names it. Throws UsageError if that can't be read or is not of the same size.
 Experiment StartFrom(const Experiment& experiment, const std::string& policy,

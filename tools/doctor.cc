@@ -17,6 +17,7 @@
 #include "bus/lcm_url.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/help_formatter.h"
 #include "core/installation.h"
 #include "core/memory.h"
 #include "msgs/channels.h"
@@ -311,12 +312,20 @@ void AddDoctor(CLI::App& app, Command& command) {
   CLI::App* doctor = app.add_subcommand(
       "doctor",
       "Examine this machine: network, memory, disk, programs; each problem with the command that mends it");
-  doctor->add_option("--lcm-url", options->lcm_url, "LCM URL of the runs to come")->capture_default_str();
-  doctor->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
+  doctor->add_option("--lcm-url", options->lcm_url, "LCM URL of the runs to come")
+      ->type_name("URL")
       ->capture_default_str();
-  doctor->add_option("--folder", options->folder, "Where runs will be written")->capture_default_str();
-  doctor->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
-  doctor->footer("Exit status: 0 training works, 1 it can't.");
+  doctor->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
+      ->type_name("PREFIX")
+      ->capture_default_str();
+  doctor->add_option("--folder", options->folder, "Where runs will be written")
+      ->type_name("FOLDER")
+      ->capture_default_str();
+  doctor->add_option("--format", options->format, "How the result is printed")
+      ->check(OneOf({"text", "json"}));
+  doctor->footer(
+      HelpExamples({"fresco doctor", "fresco doctor --lcm-url 'udpm://239.255.76.67:7667?ttl=1'"}) +
+      "\n\nExit status: 0 training works, 1 it can't.");
   doctor->callback([options, &command] { command = [options] { return Doctor(*options); }; });
 }
 

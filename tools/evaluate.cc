@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/clock.h"
+#include "core/help_formatter.h"
 #include "core/signals.h"
 #include "report/result_display.h"
 #include "storage/judgement.h"
@@ -197,8 +198,13 @@ void AddEvaluate(CLI::App& app, Command& command) {
                    "Episodes, in worlds with chance; default: schedule.evaluation_episodes")
       ->check(CLI::Range(1, 1'000'000));
   evaluate->add_option("--seed", options->seed, "Seed of these episodes; default: schedule.seed");
-  evaluate->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
+  evaluate->add_option("--format", options->format, "How the result is printed")
+      ->check(OneOf({"text", "json"}));
   options->choice.limits.show_progress = true;
+  evaluate->footer(
+      HelpExamples({"fresco evaluate --policy runs/NAME", "fresco evaluate --policy runs/NAME --search 64",
+                    "fresco evaluate --policy optimal --config tight_energy",
+                    "fresco evaluate --policy runs/NAME --format json"}));
   evaluate->callback([options, &command] { command = [options] { return Evaluate(*options); }; });
 }
 

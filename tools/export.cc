@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/help_formatter.h"
 #include "exports/exports.h"
 #include "msgs/ready_experiments.h"
 #include "storage/policy.h"
@@ -49,17 +50,24 @@ void AddExport(CLI::App& app, Command& command) {
   exporting
       ->add_option("--policy", options->choice.policy,
                    "The folder of a run (with a best.network), a network file or a checkpoint")
+      ->type_name("POLICY")
       ->required();
-  exporting->add_option("--config", options->choice.config, ConfigHelp("the one of the policy"));
-  exporting->add_option("--set", options->choice.settings, "Override one field: path=value; may be repeated");
+  exporting->add_option("--config", options->choice.config, ConfigHelp("the one of the policy"))
+      ->type_name("EXPERIMENT");
+  exporting->add_option("--set", options->choice.settings, "Override one field: path=value; may be repeated")
+      ->type_name("PATH=VALUE");
   exporting
       ->add_option("--format", options->format,
                    "onnx: a model from states to actions; cpp: a header without dependencies, from states to "
                    "actions; csv: the network's parameters")
       ->required()
       ->check(OneOf({"onnx", "cpp", "csv"}));
-  exporting->add_option("--out", options->out, "The file to write")->required();
-  exporting->add_option("--name", options->name, "For cpp: the namespace; default: fresco_policy");
+  exporting->add_option("--out", options->out, "The file to write")->type_name("FILE")->required();
+  exporting->add_option("--name", options->name, "For cpp: the namespace; default: fresco_policy")
+      ->type_name("NAME");
+  exporting->footer(
+      HelpExamples({"fresco export --policy runs/NAME --format onnx --out policy.onnx",
+                    "fresco export --policy runs/NAME --format cpp --out policy.h --name uav_policy"}));
   exporting->callback([options, &command] { command = [options] { return ExportPolicy(*options); }; });
 }
 

@@ -9,6 +9,7 @@
 #include "bus/open_bus.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/help_formatter.h"
 #include "core/identifier.h"
 #include "core/installation.h"
 #include "core/live_line.h"
@@ -164,9 +165,11 @@ void AddFly(CLI::App& app, Command& command) {
       ->check(CLI::Range(0.01, 1000.0));
   fly->add_flag("--loop", options->loop, "Fly it again and again, until Ctrl-C");
   fly->add_option("--lcm-url", options->lcm_url,
-                  "LCM URL to publish on; default: the experiment's run.lcm_url");
+                  "LCM URL to publish on; default: the experiment's run.lcm_url")
+      ->type_name("URL");
   AddBusOptions(*fly, options->bus);
   options->choice.limits.show_progress = true;
+  fly->footer(HelpExamples({"fresco fly --policy runs/NAME --loop", "fresco fly --policy optimal --rate 2"}));
   fly->callback([options, &command] { command = [options] { return FlyOverBus(*options); }; });
 }
 

@@ -36,7 +36,7 @@ void AddInfo(CLI::App& log, Command& command) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* info = log.add_subcommand("info", "Show what logs contain: channels, runs, actors, gaps, damage");
   AddEventInput(*info, options->input);
-  info->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
+  info->add_option("--format", options->format, "How the result is printed")->check(OneOf({"text", "json"}));
   info->callback([options, &command] { command = [options] { return Info(*options); }; });
 }
 
@@ -83,7 +83,7 @@ void AddCut(CLI::App& log, Command& command) {
   auto options = std::make_shared<CutOptions>();
   CLI::App* cut = log.add_subcommand("cut", "Copy some of the events to a new log: by time, channel or run");
   AddEventInput(*cut, options->input);
-  cut->add_option("--out", options->out, "The new log; never written over")->required();
+  cut->add_option("--out", options->out, "The new log; never written over")->type_name("FILE")->required();
   cut->add_option("--split-mb", options->split_mb,
                   "Split into files of so many megabytes: OUT.00, OUT.01, ..")
       ->check(CLI::Range(0.001, 1e9));
@@ -185,10 +185,10 @@ void AddLogExport(CLI::App& log, Command& command) {
   app->add_option("--what", options->what, "transitions, actor-statuses or learner-statuses")
       ->capture_default_str()
       ->check(OneOf({"transitions", "actor-statuses", "learner-statuses"}));
-  app->add_option("--format", options->format, "csv or jsonl")
+  app->add_option("--format", options->format, "How the rows are written")
       ->capture_default_str()
       ->check(OneOf({"csv", "jsonl"}));
-  app->add_option("--out", options->out, "The table's file; default: standard output");
+  app->add_option("--out", options->out, "The table's file; default: standard output")->type_name("FILE");
   app->callback([options, &command] { command = [options] { return Export(*options); }; });
 }
 

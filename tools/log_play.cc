@@ -9,6 +9,7 @@
 #include "bus/bus.h"
 #include "core/clock.h"
 #include "core/error.h"
+#include "core/help_formatter.h"
 #include "core/live_line.h"
 #include "core/signals.h"
 #include "logs/event_input.h"
@@ -147,7 +148,11 @@ void AddLogPlay(CLI::App& log, Command& command) {
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e6));
   play->add_flag("--loop", options->loop, "Play again and again, until Ctrl-C");
-  play->add_option("--lcm-url", options->lcm_url, "LCM URL to play on")->capture_default_str();
+  play->add_option("--lcm-url", options->lcm_url, "LCM URL to play on")
+      ->type_name("URL")
+      ->capture_default_str();
+  play->footer(HelpExamples(
+      {"fresco log play run.lcm", "fresco log play run.lcm --speed 10 --start 60 --stop 120 --loop"}));
   play->callback([options, &command] { command = [options] { return Play(*options); }; });
 }
 

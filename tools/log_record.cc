@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/clock.h"
+#include "core/help_formatter.h"
 #include "core/live_line.h"
 #include "core/signals.h"
 #include "logs/bus_losses.h"
@@ -74,16 +75,23 @@ int Record(const RecordOptions& options) {
 void AddLogRecord(CLI::App& log, Command& command) {
   auto options = std::make_shared<RecordOptions>();
   CLI::App* record = log.add_subcommand("record", "Record all traffic, until Ctrl-C or for --seconds");
-  record->add_option("--out", options->out, "The log; never written over")->required();
+  record->add_option("--out", options->out, "The log; never written over")->type_name("FILE")->required();
   record
       ->add_option("--split-mb", options->split_mb,
                    "Split into files of so many megabytes: OUT.00, OUT.01, ..; default: one file")
       ->check(CLI::Range(0.001, 1e9));
-  record->add_option("--channel", options->channels,
-                     "Only channels that match this regular expression; may be repeated");
-  record->add_option("--lcm-url", options->lcm_url, "LCM URL to listen to")->capture_default_str();
+  record
+      ->add_option("--channel", options->channels,
+                   "Only channels that match this regular expression; may be repeated")
+      ->type_name("REGEX");
+  record->add_option("--lcm-url", options->lcm_url, "LCM URL to listen to")
+      ->type_name("URL")
+      ->capture_default_str();
   record->add_option("--seconds", options->seconds, "How long to record; default: until Ctrl-C")
       ->check(CLI::Range(0.001, 1e9));
+  record->footer(
+      HelpExamples({"fresco log record --out run.lcm",
+                    "fresco log record --out run.lcm --split-mb 100 --channel 'FRESCO_.*' --seconds 60"}));
   record->callback([options, &command] { command = [options] { return Record(*options); }; });
 }
 

@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
   AddSpy(app, command);
   AddDoctor(app, command);
   AddBench(app, command);
-  app.footer("Exit status: 0 done, 1 the work failed, 2 wrong use.");
+  app.footer(
+      "See fresco COMMAND --help for the options of a command, with examples.\n"
+      "Exit status: 0 done, 1 the work failed, 2 wrong use.");
   return program.Run(argc, argv, [&] { return command(); });
 }

@@ -7,6 +7,7 @@
 
 #include "bus/open_bus.h"
 #include "core/error.h"
+#include "core/help_formatter.h"
 #include "learner/learner_process.h"
 #include "logs/retrain_run.h"
 #include "msgs/experiment.h"
@@ -131,19 +132,29 @@ void AddRetrain(CLI::App& app, Command& command) {
       "retrain",
       "Train from recorded LCM logs: the same weights again, or another agent on the same experience");
   retrain->add_option("log", options->logs, "Event logs of one run, in any order")->required();
-  retrain->add_option("--config", options->config, ConfigHelp("the recorded one"));
-  retrain->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
-  retrain->add_option("--start-from", options->start_from,
-                      "The network with which a run began that had --start-from, or another one");
+  retrain->add_option("--config", options->config, ConfigHelp("the recorded one"))->type_name("EXPERIMENT");
+  retrain->add_option("--set", options->settings, "Override one field: path=value; may be repeated")
+      ->type_name("PATH=VALUE");
+  retrain
+      ->add_option("--start-from", options->start_from,
+                   "The network with which a run began that had --start-from, or another one")
+      ->type_name("POLICY");
   retrain->add_option("--seed", options->seed, "Seed of everything random, except the recorded flights");
-  retrain->add_option("--run", options->run,
-                      "Id of the run in the log (16 hexadecimal digits); default: the only one");
+  retrain
+      ->add_option("--run", options->run,
+                   "Id of the run in the log (16 hexadecimal digits); default: the only one")
+      ->type_name("RUN_ID");
   AddKeyFileOption(*retrain, options->key_file);
   AddArithmeticOption(*retrain);
   retrain->add_flag("--strict", options->strict,
                     "Fail if the log misses an episode, instead of flying it again");
-  retrain->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
-  retrain->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
+  retrain->add_option("--out", options->out, "Folder for the results; default: a new one under runs/")
+      ->type_name("FOLDER");
+  retrain->add_option("--format", options->format, "How the result is printed")
+      ->check(OneOf({"text", "json"}));
+  retrain->footer(
+      HelpExamples({"fresco train --record --out runs/live", "fresco retrain runs/live/traffic.lcm",
+                    "fresco retrain runs/live/traffic.lcm --set agent.learning_rate=0.0005"}));
   retrain->callback([options, &command] { command = [options] { return Retrain(*options); }; });
 }
 

@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/help_formatter.h"
 #include "core/installation.h"
 #include "core/live_line.h"
 #include "core/signals.h"
@@ -229,8 +230,10 @@ void AddSoak(CLI::App& app, Command& command) {
   soak->add_option("--minutes", options->minutes, "How long to run; at least one round is run in any case")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e5));
-  soak->add_option("--config", options->config, ConfigHelp("ci with 2,000 episodes"));
-  soak->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
+  soak->add_option("--config", options->config, ConfigHelp("ci with 2,000 episodes"))
+      ->type_name("EXPERIMENT");
+  soak->add_option("--set", options->settings, "Override one field: path=value; may be repeated")
+      ->type_name("PATH=VALUE");
   soak->add_option("--actors", options->actors, "Local actor processes")->check(CLI::Range(1, 1024));
   soak->add_option("--seed", options->seed, "Seed of the faults")->capture_default_str();
   soak->add_option("--first-round", options->first_round, "Begin with this round's faults")
@@ -239,8 +242,9 @@ void AddSoak(CLI::App& app, Command& command) {
   soak->add_option("--rounds", options->rounds,
                    "The most rounds to run; default: as many as fit into the time")
       ->check(CLI::Range(1, 1'000'000'000));
-  soak->add_option("--out", options->out, "New folder for the runs; default: one under runs/");
-  soak->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
+  soak->add_option("--out", options->out, "New folder for the runs; default: one under runs/")
+      ->type_name("FOLDER");
+  soak->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet")->type_name("URL");
   AddKeyFileOption(*soak, options->key_file);
   AddArithmeticOption(*soak);
   soak->add_option("--memory-allowance-mib", options->memory_allowance_mib,
@@ -248,7 +252,10 @@ void AddSoak(CLI::App& app, Command& command) {
                    "soak itself may grow by twice as much over its rounds")
       ->capture_default_str()
       ->check(CLI::Range(0, 1 << 20));
-  soak->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
+  soak->add_option("--format", options->format, "How the result is printed")->check(OneOf({"text", "json"}));
+  soak->footer(
+      HelpExamples({"fresco soak --minutes 5",
+                    "fresco soak --first-round 17 --rounds 1         # repeats the faults of a round"}));
   soak->callback([options, &command] { command = [options] { return RunSoak(*options); }; });
 }
 

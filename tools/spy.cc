@@ -12,6 +12,7 @@
 #include "bus/bus.h"
 #include "bus/lcm_url.h"
 #include "core/error.h"
+#include "core/help_formatter.h"
 #include "core/installation.h"
 #include "msgs/channels.h"
 #include "tools/subcommands.h"
@@ -126,8 +127,11 @@ void RequireSpy() {
 void AddSpy(CLI::App& app, Command& command) {
   auto options = std::make_shared<SpyOptions>();
   CLI::App* spy = app.add_subcommand("spy", "Watch a run's messages, flights and curves in lcm-spy");
-  spy->add_option("--lcm-url", options->lcm_url, "LCM URL of the run")->capture_default_str();
+  spy->add_option("--lcm-url", options->lcm_url, "LCM URL of the run")
+      ->type_name("URL")
+      ->capture_default_str();
   spy->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
+      ->type_name("PREFIX")
       ->capture_default_str();
   spy->add_option("--open", options->open,
                   "Open these windows at once: flight,episode,learner,actors, or all: learner, actors, and "
@@ -136,6 +140,7 @@ void AddSpy(CLI::App& app, Command& command) {
       ->check(OneOf({"flight", "episode", "learner", "actors", "all"}));
   spy->add_flag("--print-table", options->print_table,
                 "Also print the table once a second: channel, type, messages received, damaged messages");
+  spy->footer(HelpExamples({"fresco spy --open all"}));
   spy->callback([options, &command] { command = [options] { return Spy(*options); }; });
 }
 

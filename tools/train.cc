@@ -7,6 +7,7 @@
 
 #include "bus/open_bus.h"
 #include "core/command_line.h"
+#include "core/help_formatter.h"
 #include "core/installation.h"
 #include "core/live_line.h"
 #include "core/signals.h"
@@ -145,22 +146,27 @@ void AddTrain(CLI::App& app, Command& command) {
   auto options = std::make_shared<TrainOptions>();
   CLI::App* train =
       app.add_subcommand("train", "Train over LCM: one learner, several actors, and a table at the end");
-  CLI::Option* config = train->add_option("--config", options->config, ConfigHelp());
-  train->add_option("--set", options->settings, "Override one field: path=value; may be repeated");
+  CLI::Option* config = train->add_option("--config", options->config, ConfigHelp())->type_name("EXPERIMENT");
+  train->add_option("--set", options->settings, "Override one field: path=value; may be repeated")
+      ->type_name("PATH=VALUE");
   train->add_option("--actors", options->actors, "Local actor processes; 0: wait for actors that join")
       ->check(CLI::Range(0, 1024));
   CLI::Option* seed = train->add_option("--seed", options->seed, "Seed of everything random");
   CLI::Option* out =
-      train->add_option("--out", options->out, "Folder for the results; default: a new one under runs/");
-  CLI::Option* start_from = train->add_option("--start-from", options->start_from,
-                                              "Begin with the network of a policy (a run's folder, a network "
-                                              "file or a checkpoint), not with a random one");
+      train->add_option("--out", options->out, "Folder for the results; default: a new one under runs/")
+          ->type_name("FOLDER");
+  CLI::Option* start_from = train
+                                ->add_option("--start-from", options->start_from,
+                                             "Begin with the network of a policy (a run's folder, a network "
+                                             "file or a checkpoint), not with a random one")
+                                ->type_name("POLICY");
   train->add_option("--resume", options->resume, "Continue the run in this folder from its latest checkpoint")
+      ->type_name("FOLDER")
       ->excludes(config)
       ->excludes(seed)
       ->excludes(start_from)
       ->excludes(out);
-  train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet");
+  train->add_option("--lcm-url", options->lcm_url, "Where learner and actors meet")->type_name("URL");
   CLI::Option* record = train->add_flag("--record", options->record, "Record all traffic to DIR/traffic.lcm");
   train
       ->add_option("--record-split-mb", options->record_split_mb,
@@ -169,7 +175,13 @@ void AddTrain(CLI::App& app, Command& command) {
       ->check(CLI::Range(0.001, 1e9));
   AddBusOptions(*train, options->bus);
   AddArithmeticOption(*train);
-  train->add_option("--format", options->format, "text or json")->check(OneOf({"text", "json"}));
+  train->add_option("--format", options->format, "How the result is printed")->check(OneOf({"text", "json"}));
+  train->footer(HelpExamples(
+      {"fresco train                                  # the paper's UAV, a minute or two",
+       "fresco train --config cartpole --seed 2",
+       "fresco train --set agent.hidden_layers=128,128 --set schedule.episodes=5000",
+       "fresco train --resume runs/NAME               # goes on after Ctrl-C or a crash",
+       "fresco train --actors 0 --lcm-url 'udpm://239.255.76.67:7667?ttl=1'   # actors on other hosts"}));
   train->callback([options, &command] {
     command = [options] { return options->resume.empty() ? TrainAnew(*options) : GoOn(*options); };
   });

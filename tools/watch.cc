@@ -8,6 +8,7 @@
 
 #include "bus/bus.h"
 #include "core/clock.h"
+#include "core/help_formatter.h"
 #include "core/signals.h"
 #include "msgs/channels.h"
 #include "report/run_watch.h"
@@ -99,11 +100,16 @@ void AddWatch(CLI::App& app, Command& command) {
   auto options = std::make_shared<WatchOptions>();
   CLI::App* watch =
       app.add_subcommand("watch", "Watch all runs on the bus in the terminal: learners, actors, losses");
-  watch->add_option("--lcm-url", options->lcm_url, "LCM URL of the runs")->capture_default_str();
+  watch->add_option("--lcm-url", options->lcm_url, "LCM URL of the runs")
+      ->type_name("URL")
+      ->capture_default_str();
   watch->add_option("--channel-prefix", options->channel_prefix, "First part of the channels' names")
+      ->type_name("PREFIX")
       ->capture_default_str();
   watch->add_flag("--once", options->once,
                   "Listen for 2.5 seconds and print what was heard as text; exit status 1 if that is no run");
+  watch->footer(
+      HelpExamples({"fresco watch", "fresco watch --once --lcm-url 'udpm://239.255.76.67:7667?ttl=1'"}));
   watch->callback([options, &command] { command = [options] { return Watch(*options); }; });
 }
 

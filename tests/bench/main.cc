@@ -130,16 +130,18 @@ int Main(int argc, char** argv) {
       LogStyle::kPlain, {kSourceCommit, CurrentArithmetic().name});
   CLI::App& app = program.command_line();
   app.add_option("--filter", arguments.filter,
-                 "Measure the rows whose name has a match of this regular expression");
+                 "Measure the rows whose name has a match of this regular expression")
+      ->type_name("REGEX");
   app.add_option("--seconds", arguments.seconds, "How long a row takes, about; some take longer")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();
   AddArithmeticOption(app);
-  app.add_option("--format", arguments.format, "text or json")->check(OneOf({"text", "json"}));
-  app.add_option(
-      "--check", arguments.check,
-      "Files with what --format json printed. Measure only the rows of the file that is of this processor; "
-      "exit with 1 if a ratio is below 80 % of the recorded one, or absent");
+  app.add_option("--format", arguments.format, "How the result is printed")->check(OneOf({"text", "json"}));
+  app.add_option("--check", arguments.check,
+                 "Files with what --format json printed. Measure only the rows of the file that is of this "
+                 "processor; "
+                 "exit with 1 if a ratio is below 80 % of the recorded one, or absent")
+      ->type_name("FILE");
   app.footer("Exit status: 0 done, 1 the work failed or a ratio fell, 2 wrong use.");
   return program.Run(argc, argv, [&] { return Bench(arguments); });
 }

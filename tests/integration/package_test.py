@@ -174,6 +174,8 @@ class Packages(FrescoTest):
         optimum = re.search(r"average_aoi (\S+)", output)[1]
         told = self.as_user("fresco", "evaluate", "--config", "ci", "--policy", "optimal")
         self.assertIn(optimum, told)
+        told = self.as_user("fresco", "evaluate", "--policy", "run")
+        self.assertIn(self.as_user("build/act", "run").strip(), told)
         self.passed("a program was built against the libraries")
 
     def check_spy(self):
