@@ -280,4 +280,40 @@ void SetField(Message& message, const std::string& path, const std::string& valu
   SetFieldBelow(*message.GetDescriptor(), message, path, path, value);
 }
 
+std::map<std::string, std::string> FieldValues(const Message& message) {
+  constexpr size_t kLongestValue = 60;
+  std::map<std::string, std::string> values;
+  const Reflection& reflection = *message.GetReflection();
+  std::vector<const FieldDescriptor*> fields;
+  reflection.ListFields(message, &fields);
+  for (const FieldDescriptor* field : fields) {
+    const int size = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+    for (int i = 0; i < size; ++i) {
+      if (IsMessage(*field)) {
+        const Message& below = field->is_repeated() ? reflection.GetRepeatedMessage(message, field, i)
+                                                    : reflection.GetMessage(message, field);
+        const std::string path = field->name() + (field->is_repeated() ? fmt::format("[{}]", i) : "");
+        for (const auto& [name, value] : FieldValues(below)) {
+          values[JoinPath(path, name)] = value;
+        }
+        if (FieldValues(below).empty()) {
+          values[path] = "{}";
+        }
+      } else {
+        std::string text;
+        google::protobuf::TextFormat::PrintFieldValueToString(message, field, field->is_repeated() ? i : -1,
+                                                              &text);
+        std::string& value = values[field->name()];
+        value += (value.empty() ? "" : ",") + text;
+      }
+    }
+  }
+  for (auto& [path, value] : values) {
+    if (value.size() > kLongestValue) {
+      value = value.substr(0, kLongestValue) + "...";
+    }
+  }
+  return values;
+}
+
 }  // namespace fresco

@@ -5,6 +5,7 @@
 
 #include <google/protobuf/message.h>
 
+#include <map>
 #include <string>
 
 namespace fresco {
@@ -27,5 +28,9 @@ void CheckRanges(const google::protobuf::Message& message, const std::string& or
 /// text holds. A repeated field takes several values, separated by commas. Throws UsageError if there is no
 /// such field (the error suggests the nearest name) or if the value does not parse.
 void SetField(google::protobuf::Message& message, const std::string& path, const std::string& value);
+
+/// The values of all fields that are set, in text format, by path: {"agent.hidden_layers", "256,256"}. The
+/// paths are those of SetField. Long texts are cut.
+std::map<std::string, std::string> FieldValues(const google::protobuf::Message& message);
 
 }  // namespace fresco

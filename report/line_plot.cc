@@ -35,8 +35,15 @@ RoleStyle StyleOf(CurveRole role) {
       return {colour::kVermillion, 9, 0.75, 1.8, ""};
     case CurveRole::kDistanceBased:
       return {colour::kGreen, 13, 0.8, 1.8, ""};
+    case CurveRole::kSeries:
+      break;
   }
-  FRESCO_CHECK(false);
+  constexpr const char* kColours[] = {colour::kBlue,   colour::kVermillion, colour::kGreen,
+                                      colour::kPurple, colour::kOrange,     colour::kSkyBlue};
+  constexpr const char* kDashes[] = {"", "dashtype (9,5)", "dashtype (2,4)"};
+  const size_t index = static_cast<size_t>(role) - static_cast<size_t>(CurveRole::kSeries);
+  return {kColours[index % std::size(kColours)], 7, 0.65, 2,
+          kDashes[index / std::size(kColours) % std::size(kDashes)]};
 }
 
 /// gnuplot's options for a curve.

@@ -2,6 +2,7 @@
 // the progress of a run. Pure functions; any thread may call them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +12,18 @@
 namespace fresco {
 
 /// What a curve shows. The role decides its colour, marker and dashes in every figure.
-enum class CurveRole {
+enum class CurveRole : size_t {
   kDqn,
   kOptimum,
   kAoiBased,
   kDistanceBased,
+  kSeries,  ///< the first of any number of alike curves (SeriesRole)
 };
+
+/// The role of alike curve `index`, 0, 1, ...: its colour is that of no other of the first six.
+inline CurveRole SeriesRole(size_t index) {
+  return static_cast<CurveRole>(static_cast<size_t>(CurveRole::kSeries) + index);
+}
 
 enum class CurveShape {
   kLineAndMarkers,  ///< a few measured points, joined by a line

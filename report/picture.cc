@@ -174,9 +174,13 @@ std::string GnuplotString(std::string_view text) {
   return quoted + "\"";
 }
 
-void WritePicture(const Picture& picture, const std::filesystem::path& stem) {
+std::string SvgText(const Picture& picture) {
   FRESCO_CHECK(picture.width_px > 0 && picture.height_px > 0);
-  const std::string svg = Render(picture, false);
+  return Render(picture, false);
+}
+
+void WritePicture(const Picture& picture, const std::filesystem::path& stem) {
+  const std::string svg = SvgText(picture);
   const std::string png = Render(picture, true);
   WriteFileAtomically(stem.string() + ".svg", svg);
   WriteFileAtomically(stem.string() + ".png", png);

@@ -49,6 +49,9 @@ struct Picture {
 /// Throws what RunGnuplot and WriteFileAtomically throw.
 void WritePicture(const Picture& picture, const std::filesystem::path& stem);
 
+/// Returns the text of the SVG file. Throws as RunGnuplot does.
+std::string SvgText(const Picture& picture);
+
 /// An entry of the legend below the plot, which explains a line or a mark. (gnuplot's own legend is not used:
 /// its width, and so its position, depends on the kind of file.)
 struct LegendEntry {

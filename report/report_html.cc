@@ -24,19 +24,6 @@ bool IsNumber(std::string_view cell) {
   return cell.empty() || (cell.front() >= '0' && cell.front() <= '9');
 }
 
-std::vector<bool> NumericColumns(const ReportTable& table) {
-  const std::vector<std::string>& first =
-      table.header.empty() && !table.rows.empty() ? table.rows.front() : table.header;
-  std::vector<bool> numeric(first.size(), true);
-  for (const std::vector<std::string>& row : table.rows) {
-    FRESCO_CHECK(row.size() == numeric.size());
-    for (size_t column = 0; column < row.size(); ++column) {
-      numeric[column] = numeric[column] && IsNumber(row[column]);
-    }
-  }
-  return numeric;
-}
-
 /// Returns a row of the table. `first_tag` and `tag` are those of the first and the other cells.
 std::string Row(const std::vector<std::string>& cells, const std::vector<bool>& numeric,
                 std::string_view first_tag, std::string_view tag) {
@@ -64,6 +51,19 @@ std::string Replaced(std::string_view text, std::initializer_list<Replacement> r
 }
 
 }  // namespace
+
+std::vector<bool> NumericColumns(const ReportTable& table) {
+  const std::vector<std::string>& first =
+      table.header.empty() && !table.rows.empty() ? table.rows.front() : table.header;
+  std::vector<bool> numeric(first.size(), true);
+  for (const std::vector<std::string>& row : table.rows) {
+    FRESCO_CHECK(row.size() == numeric.size());
+    for (size_t column = 0; column < row.size(); ++column) {
+      numeric[column] = numeric[column] && IsNumber(row[column]);
+    }
+  }
+  return numeric;
+}
 
 std::string EscapedHtml(std::string_view text) {
   return Replaced(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}});

@@ -24,6 +24,9 @@ std::string PercentEncoded(std::string_view text);
 /// {{name}} inside a part is not replaced.
 std::string FilledTemplate(std::string_view page, const std::map<std::string_view, std::string>& parts);
 
+/// Which columns of the table hold numbers only, perhaps with a unit.
+std::vector<bool> NumericColumns(const ReportTable& table);
+
 /// Returns the table's HTML. Columns of numbers are aligned at the right. If the table is too wide, it can be
 /// scrolled.
 std::string TableHtml(const ReportTable& table);

@@ -8,6 +8,7 @@
 
 #include "msgs/wire.h"
 #include "planner/planner.h"
+#include "report/report.h"
 
 namespace fresco {
 
@@ -46,6 +47,9 @@ std::string OptimumNote(const std::string& summary_json);
 
 /// Returns the final table of a run, followed by the note and by the table of gaps, from a summary's JSON.
 std::string ResultTable(const std::string& summary_json, const std::string& title = "this run (DQN)");
+
+/// Returns a table as text: its heading and a line for each row, columns of numbers at the right.
+std::string TableText(const ReportTable& table);
 
 /// Returns a share, 0 to 1, in whole percent: "37 %". It has more digits where "0 %" or "100 %" would be
 /// untrue.

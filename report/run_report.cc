@@ -15,6 +15,7 @@
 #include "storage/network_file.h"
 #include "storage/plans.h"
 #include "storage/policy.h"
+#include "storage/run_folder.h"
 #include "training/flyer.h"
 #include "training/schedules.h"
 
@@ -30,39 +31,36 @@ std::string Label(const Quantity& quantity) {
 
 }  // namespace
 
-LinePlot LearningCurvePlot(const LearningCurve& curve) {
-  FRESCO_CHECK(!curve.points.empty());
-  constexpr int64_t kManyUpdates = 10'000;
-  const bool thousands = curve.points.back().updates >= kManyUpdates;
+namespace {
+
+constexpr int64_t kManyUpdates = 10'000;  // shown in thousands
+
+/// Whether a point has a score to show: in a world without chance, one that failed has none.
+bool IsShown(const LearningPoint& point, const LearningCurve& curve) {
+  return point.success > 0 || curve.world.random;
+}
+
+/// The best evaluation so far, as steps over the updates, in units of `updates_unit`.
+Curve BestSoFar(const LearningCurve& curve, double updates_unit) {
   const bool less_is_better = curve.world.less_is_better;
-  Curve flights{.name = curve.world.random ? "mean of greedy episodes" : "greedy episode",
-                .role = CurveRole::kDqn,
-                .shape = CurveShape::kFaintDots};
   Curve best{.name = "best so far", .role = CurveRole::kDqn, .shape = CurveShape::kSteps};
-  Curve failures{.name = "not " + Title(curve.world.success),
-                 .role = CurveRole::kAoiBased,
-                 .shape = CurveShape::kTopMarks};
   for (const LearningPoint& point : curve.points) {
-    const double x = static_cast<double>(point.updates) / (thousands ? 1000 : 1);
-    flights.x.push_back(x);
-    const bool shown = point.success > 0 || curve.world.random;
-    flights.y.push_back(shown ? point.score : std::nan(""));
-    if (!shown) {
-      failures.x.push_back(x);
-    }
     const bool last = &point == &curve.points.back();
     const bool better =
-        shown &&
+        IsShown(point, curve) &&
         (best.y.empty() || (less_is_better ? point.score < best.y.back() : point.score > best.y.back()));
     if (better || (last && !best.y.empty())) {
-      best.x.push_back(x);
+      best.x.push_back(static_cast<double>(point.updates) / updates_unit);
       best.y.push_back(better ? point.score : best.y.back());
     }
   }
-  LinePlot plot{.title = curve.title,
+  return best;
+}
+
+LinePlot PlotOverUpdates(const std::string& title, bool thousands, const LearningCurve& curve) {
+  LinePlot plot{.title = title,
                 .x_label = thousands ? "updates (thousands)" : "updates",
                 .y_label = Label(curve.world.figures.front())};
-  plot.curves = {flights, failures, best};
   if (curve.optimum_score) {
     plot.references = {{"exact optimum", CurveRole::kOptimum, *curve.optimum_score}};
     plot.gap_base = curve.optimum_score;
@@ -70,31 +68,112 @@ LinePlot LearningCurvePlot(const LearningCurve& curve) {
   return plot;
 }
 
+}  // namespace
+
+LinePlot LearningCurvePlot(const LearningCurve& curve) {
+  FRESCO_CHECK(!curve.points.empty());
+  const bool thousands = curve.points.back().updates >= kManyUpdates;
+  const double updates_unit = thousands ? 1000 : 1;
+  Curve flights{.name = curve.world.random ? "mean of greedy episodes" : "greedy episode",
+                .role = CurveRole::kDqn,
+                .shape = CurveShape::kFaintDots};
+  Curve failures{.name = "not " + Title(curve.world.success),
+                 .role = CurveRole::kAoiBased,
+                 .shape = CurveShape::kTopMarks};
+  for (const LearningPoint& point : curve.points) {
+    const double x = static_cast<double>(point.updates) / updates_unit;
+    flights.x.push_back(x);
+    flights.y.push_back(IsShown(point, curve) ? point.score : std::nan(""));
+    if (!IsShown(point, curve)) {
+      failures.x.push_back(x);
+    }
+  }
+  LinePlot plot = PlotOverUpdates(curve.title, thousands, curve);
+  plot.curves = {flights, failures, BestSoFar(curve, updates_unit)};
+  return plot;
+}
+
+LinePlot BestSoFarPlot(const std::vector<LearningCurve>& curves, bool one_world) {
+  int64_t updates = 0;
+  for (const LearningCurve& curve : curves) {
+    updates = std::max(updates, curve.points.back().updates);
+  }
+  const bool thousands = updates >= kManyUpdates;
+  LearningCurve common = curves.front();
+  if (!one_world) {
+    common.optimum_score.reset();
+  }
+  LinePlot plot = PlotOverUpdates("Best evaluation so far", thousands, common);
+  for (const LearningCurve& curve : curves) {
+    Curve best = BestSoFar(curve, thousands ? 1000 : 1);
+    if (!best.x.empty()) {
+      best.name = curve.title;
+      best.role = SeriesRole(plot.curves.size());
+      plot.curves.push_back(std::move(best));
+    }
+  }
+  return plot;
+}
+
+namespace {
+
+/// Returns the folder. Throws UsageError if it is not one of a run that has ended.
+const Path& CheckEnded(const Path& folder) {
+  constexpr char kSummary[] = "summary.json";
+  if (!std::filesystem::exists(folder / kSummary)) {
+    throw UsageError(fmt::format("expected the folder of a run that has ended; {} has no {}{}",
+                                 folder.string(), kSummary, NewestRunHint(folder, kSummary)));
+  }
+  return folder;
+}
+
+}  // namespace
+
 FinishedRun::FinishedRun(const Path& folder)
-    : folder_(folder),
+    : folder_(CheckEnded(folder)),
       experiment_(Experiment::Load((folder / "config.textproto").string())),
       summary_(ReadFile(folder / "summary.json")) {
   ReadLearningCurve();
 }
 
-std::vector<ReportEpisode> FinishedRun::FlyEpisodes() const {
+std::optional<uint64_t> FinishedRun::ShownSeed() const {
+  if (!world().description().random) {
+    return 0;
+  }
+  return experiment_.schedule().fixed_evaluation_episodes()
+             ? std::optional(FixedDeliverySeeds(experiment_.schedule()).front())
+             : std::nullopt;
+}
+
+std::optional<Episode> FinishedRun::FlyBest() const {
+  const std::optional<uint64_t> seed = ShownSeed();
+  if (!seed || !std::filesystem::exists(folder_ / "best.network")) {
+    return std::nullopt;
+  }
+  const StoredNetwork network = ReadNetworkFile(folder_ / "best.network");
+  return FlyGreedily(experiment_, *seed, std::make_shared<const Vector>(network.parameters));
+}
+
+std::vector<ReportEpisode> FinishedRun::FlyReferences() const {
   std::vector<ReportEpisode> episodes;
-  const bool random = world().description().random;
-  if (random && !experiment_.schedule().fixed_evaluation_episodes()) {
+  const std::optional<uint64_t> seed = ShownSeed();
+  if (!seed) {
     return episodes;
   }
-  const uint64_t seed = random ? FixedDeliverySeeds(experiment_.schedule()).front() : 0;
-  if (std::filesystem::exists(folder_ / "best.network")) {
-    const StoredNetwork network = ReadNetworkFile(folder_ / "best.network");
-    episodes.push_back({"this run (DQN)",
-                        FlyGreedily(experiment_, seed, std::make_shared<const Vector>(network.parameters))});
-  }
-  const std::vector<uint64_t> seeds = {seed};
+  const std::vector<uint64_t> seeds = {*seed};
   if (const std::shared_ptr<const Plan> plan = PlansIn(folder_, world(), seeds).front(); plan != nullptr) {
     episodes.push_back({FoundFlightName(plan->optimal), plan->flight});
   }
   for (const ReferencePolicy& policy : world().reference_policies()) {
-    episodes.push_back({policy.title, world().FlyReference(policy.name, seed)});
+    episodes.push_back({policy.title, world().FlyReference(policy.name, *seed)});
+  }
+  return episodes;
+}
+
+std::vector<ReportEpisode> FinishedRun::FlyEpisodes() const {
+  std::vector<ReportEpisode> episodes = FlyReferences();
+  if (std::optional<Episode> best = FlyBest()) {
+    episodes.insert(episodes.begin(), {"this run (DQN)", *std::move(best)});
   }
   return episodes;
 }

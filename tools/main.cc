@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   AddTrain(app, command);
   AddEvaluate(app, command);
   AddExport(app, command);
+  AddCompare(app, command);
   AddRetrain(app, command);
   AddFly(app, command);
   AddFigures(app, command);

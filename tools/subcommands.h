@@ -15,6 +15,7 @@ using Command = std::function<int()>;
 void AddTrain(CLI::App& app, Command& command);
 void AddEvaluate(CLI::App& app, Command& command);
 void AddExport(CLI::App& app, Command& command);
+void AddCompare(CLI::App& app, Command& command);
 void AddRetrain(CLI::App& app, Command& command);
 void AddFly(CLI::App& app, Command& command);
 void AddFigures(CLI::App& app, Command& command);

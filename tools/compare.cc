@@ -1,0 +1,53 @@
+// The subcommand `fresco compare`: sets runs beside each other.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/help_formatter.h"
+#include "report/run_comparison.h"
+#include "tools/subcommands.h"
+
+namespace fresco {
+namespace {
+
+struct CompareOptions {
+  std::vector<std::string> runs;
+  std::string out;
+  std::string format = "text";
+};
+
+int Compare(const CompareOptions& options) {
+  const RunComparison comparison({options.runs.begin(), options.runs.end()});
+  if (options.format == "json") {
+    fmt::print("{}\n", comparison.Json());
+  } else {
+    fmt::print("{}", comparison.Text());
+  }
+  if (!options.out.empty()) {
+    comparison.WritePage(options.out);
+    if (options.format == "text") {
+      fmt::print("\nthe page with curves and flights is {}\n", options.out);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+void AddCompare(CLI::App& app, Command& command) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* compare = app.add_subcommand(
+      "compare", "Set runs beside each other: results, settings that differ, means over seeds, curves");
+  compare->add_option("RUN", options->runs, "Folders of runs that have ended")->required();
+  compare->add_option("--out", options->out, "Also write a page (HTML) with curves and flights")
+      ->type_name("FILE");
+  compare->add_option("--format", options->format, "How the result is printed")
+      ->check(OneOf({"text", "json"}));
+  compare->footer(HelpExamples({"fresco compare runs/A runs/B", "fresco compare runs/* --out compare.html"}));
+  compare->callback([options, &command] { command = [options] { return Compare(*options); }; });
+}
+
+}  // namespace fresco
