@@ -5,15 +5,29 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <sstream>
+#include <vector>
 
 #include "core/clock.h"
 
 namespace fresco {
 namespace {
 
-size_t TerminalWidth() {
+winsize TerminalSize() {
   winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0;
+  return known ? size : winsize{.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
+}
+
+/// The text's lines, as many and as much of them as the terminal can show.
+std::vector<std::string> VisibleLines(const std::string& text) {
+  const winsize size = TerminalSize();
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; lines.size() + 1 < size.ws_row && std::getline(stream, line);) {
+    lines.push_back(line.substr(0, size.ws_col - 1U));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -24,17 +38,22 @@ LiveLine::~LiveLine() {
   Finish();
 }
 
+bool LiveLine::IsDue() const {
+  return enabled_ && MonotonicMicroseconds() >= next_us_;
+}
+
 void LiveLine::Show(const std::string& text) {
   constexpr int64_t kTerminalPeriodUs = 100'000;
   constexpr int64_t kPlainPeriodUs = 5'000'000;
-  const int64_t now_us = MonotonicMicroseconds();
-  if (!enabled_ || now_us < next_us_) {
+  if (!IsDue()) {
     return;
   }
-  next_us_ = now_us + (terminal_ ? kTerminalPeriodUs : kPlainPeriodUs);
+  next_us_ = MonotonicMicroseconds() + (terminal_ ? kTerminalPeriodUs : kPlainPeriodUs);
   if (terminal_) {
-    fmt::print(stderr, "\r\x1b[K{}", text.substr(0, TerminalWidth() - 1));
-    line_open_ = true;
+    const std::vector<std::string> lines = VisibleLines(text);
+    const std::string to_first_line = open_lines_ > 1 ? fmt::format("\x1b[{}A", open_lines_ - 1) : "";
+    fmt::print(stderr, "{}\r\x1b[J{}", to_first_line, fmt::join(lines, "\n"));
+    open_lines_ = lines.size();
   } else {
     fmt::print(stderr, "{}\n", text);
   }
@@ -42,9 +61,9 @@ void LiveLine::Show(const std::string& text) {
 }
 
 void LiveLine::Finish() {
-  if (line_open_) {
+  if (open_lines_ > 0) {
     fmt::print(stderr, "\n");
-    line_open_ = false;
+    open_lines_ = 0;
   }
 }
 

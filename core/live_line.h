@@ -1,7 +1,8 @@
-// One line on standard error that says how long work is going: rewritten in place on a terminal,
-// otherwise a plain line every few seconds. Used by one thread.
+// A line or a few on standard error that say how far work is: rewritten in place on a terminal, otherwise
+// written again every few seconds. Used by one thread.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -15,15 +16,19 @@ class LiveLine {
   LiveLine(const LiveLine&) = delete;
   LiveLine& operator=(const LiveLine&) = delete;
 
-  /// Shows the text, cut to the terminal's width; texts that come too soon after another are left out.
+  bool on_terminal() const { return terminal_; }
+  /// Whether Show would show a text now, or leave it out since it comes too soon after another.
+  bool IsDue() const;
+  /// Shows the text, without a line end at its end. On a terminal, lines are cut to its width, and those that
+  /// do not fit on it are left out.
   void Show(const std::string& text);
-  /// Ends the line, so that other output begins on a line of its own.
+  /// Ends the text, so that other output begins on a line of its own.
   void Finish();
 
  private:
   bool enabled_;
   bool terminal_;
-  bool line_open_ = false;
+  size_t open_lines_ = 0;  // of the text that the next one replaces
   int64_t next_us_ = 0;
 };
 

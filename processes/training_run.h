@@ -69,6 +69,10 @@ class TrainingRun {
   /// Ends the learner, then the actors. Returns the learner's exit status; 0 if the run is complete.
   int End();
 
+  int64_t run_id() const { return run_id_; }
+  /// The bus of the run, which Step polls.
+  Bus& bus() { return *bus_; }
+
   // ---- For `soak`, which disturbs and watches a run.
   /// Sends a signal to the learner, or to the actor `number` (0 .. run.actors - 1). Does nothing if
   /// there is no such process at the moment.

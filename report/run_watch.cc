@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <type_traits>
 
+#include "core/error.h"
 #include "core/identifier.h"
+#include "msgs/experiment.h"
 #include "report/result_display.h"
+#include "storage/judgement.h"
+#include "training/schedules.h"
 
 namespace fresco {
 namespace {
@@ -39,20 +44,123 @@ std::string ActorLine(const actor_status_t& status, const std::optional<learner_
   const int32_t newest = NewestVersion(status);
   const std::string behind =
       !learner || newest < 0 ? "-" : fmt::format("{}", std::max(learner->current_version - newest, 0));
-  return fmt::format("  {:<28} {:>13.0f} {:>9} {:>8} {:>10} {:>8} {:>11.1f}\n",
+  return fmt::format("  {:<20} {:>13.0f} {:>8} {:>6} {:>6} {:>8} {:>10.1f}\n",
                      fmt::format("{}:{}", status.host, status.pid), status.transitions_per_s,
                      fmt::format("{}/{}", status.open_orders, status.capacity), behind,
                      status.resent_episodes, status.rejected_messages, status.weights_latency_ms);
 }
 
+/// The mean scores of the world's reference policies in the episodes that judge the run: "AoI-based 17.543".
+/// Empty if the world has none, if these episodes are not known, or if the world's code is not Fresco's.
+std::string ReferenceScores(const std::string& configuration) {
+  constexpr char kOrigin[] = "the run's configuration";
+  if (!Experiment::CodeIn(configuration, kOrigin).empty()) {
+    return "";
+  }
+  const Experiment experiment = Experiment::Parse(configuration, kOrigin);
+  const World& world = experiment.world();
+  std::vector<uint64_t> seeds = {0};
+  if (world.description().random) {
+    if (!experiment.schedule().fixed_evaluation_episodes()) {
+      return "";
+    }
+    seeds = FixedEvaluationSeeds(experiment.schedule());
+  }
+  std::string text;
+  for (const ReferencePolicy& policy : world.reference_policies()) {
+    PolicyFigures figures;
+    for (const uint64_t seed : seeds) {
+      figures.Add(world, world.FlyReference(policy.name, seed));
+    }
+    text += fmt::format("{}{} {:.3f}", text.empty() ? "" : ", ", policy.title, figures.Means().front());
+  }
+  return text;
+}
+
+/// How long the rest of a training takes if it goes on as since the beginning: "about 3 min left".
+std::string TimeLeft(int64_t passed_us, int64_t done, int64_t left) {
+  if (done <= 0 || left <= 0) {
+    return "";
+  }
+  const double seconds =
+      1e-6 * static_cast<double>(passed_us) * static_cast<double>(left) / static_cast<double>(done);
+  return seconds < 90 ? fmt::format("about {:.0f} s left", seconds)
+                      : fmt::format("about {:.0f} min left", seconds / 60);
+}
+
+/// The parts of a text "a | b | c" as lines of a terminal of 80 columns, each indented.
+std::string Wrapped(const std::string& text) {
+  constexpr size_t kColumns = 78;
+  constexpr std::string_view kBetween = " | ";
+  std::string lines;
+  std::string line;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(kBetween, begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    begin = end + kBetween.size();
+    if (!line.empty() && line.size() + kBetween.size() + part.size() > kColumns) {
+      lines += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "  " : std::string(kBetween)) + part;
+  }
+  return lines + line + "\n";
+}
+
+/// "[######              ]"
+std::string ProgressBar(double share) {
+  constexpr size_t kColumns = 30;
+  const auto done = static_cast<size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(kColumns));
+  return "[" + std::string(done, '#') + std::string(kColumns - done, ' ') + "]";
+}
+
 }  // namespace
+
+std::vector<std::string> RunWatch::NeededChannels() const {
+  return {channels_.run, channels_.world, channels_.learner_status, channels_.actor_status};
+}
+
+void RunWatch::AddStatus(const learner_status_t& status, int64_t now_us, WatchedRun& run) {
+  if (!run.learner) {
+    run.begin_us = now_us;
+    run.begin_episodes = status.episodes;
+  }
+  const bool evaluated = std::isfinite(status.score) && std::isfinite(status.best_score) &&
+                         (run.evaluations.empty() || run.evaluations.back().score != status.score);
+  if (evaluated) {
+    run.evaluations.push_back({static_cast<double>(status.updates), status.score, status.best_score});
+  }
+  if (run.evaluations.size() > kMaximumEvaluations) {  // keep every second one
+    size_t kept = 0;
+    for (size_t i = 0; i < run.evaluations.size(); i += 2) {
+      run.evaluations[kept++] = run.evaluations[i];
+    }
+    run.evaluations.resize(kept);
+  }
+  run.learner = status;
+  run.heard_us = now_us;
+}
+
+void RunWatch::AddAnnouncement(const run_t& message, WatchedRun& run) {
+  if (!run.announced) {
+    if (const std::optional<std::string> configuration = run.announcements.Add(message)) {
+      run.announced = true;
+      try {
+        run.references = ReferenceScores(*configuration);
+      } catch (const Error&) {
+        // A configuration that this program can't use: the learner's scores stand alone.
+      }
+    }
+  }
+}
 
 RunWatch::WatchedRun* RunWatch::RunOf(int64_t run_id) {
   const auto found = runs_.find(run_id);
   if (found != runs_.end()) {
     return &found->second;
   }
-  return run_id == 0 || runs_.size() >= kMaximumRuns ? nullptr : &runs_[run_id];
+  const bool unwanted = run_id == 0 || (only_run_ && run_id != *only_run_);
+  return unwanted || runs_.size() >= kMaximumRuns ? nullptr : &runs_[run_id];
 }
 
 void RunWatch::Add(const LcmEvent& event, int64_t now_us) {
@@ -68,8 +176,9 @@ void RunWatch::Add(const LcmEvent& event, int64_t now_us) {
       return;
     }
     if constexpr (std::is_same_v<Message, learner_status_t>) {
-      run->learner = message;
-      run->heard_us = now_us;
+      AddStatus(message, now_us, *run);
+    } else if constexpr (std::is_same_v<Message, run_t>) {
+      AddAnnouncement(message, *run);
     } else if constexpr (std::is_same_v<Message, world_t>) {
       run->world.Add(message);
     } else if constexpr (std::is_same_v<Message, weights_t>) {
@@ -104,24 +213,49 @@ std::string RunWatch::TextOf(int64_t run_id, const WatchedRun& run, double secon
                                  names == nullptr ? "" : fmt::format(", world {}", names->world));
   if (run.learner) {
     const learner_status_t& learner = *run.learner;
+    const double share = static_cast<double>(learner.episodes) /
+                         static_cast<double>(std::max<int64_t>(learner.total_episodes, 1));
+    text += fmt::format("  {} {}\n", ProgressBar(share),
+                        TimeLeft(run.heard_us - run.begin_us, learner.episodes - run.begin_episodes,
+                                 learner.total_episodes - learner.episodes));
     const double silent_s = 1e-6 * static_cast<double>(now_us - run.heard_us);
-    text += fmt::format("  {}{}\n", ProgressLine(learner, DescriptionOf(names)),
-                        silent_s < 1 ? "" : fmt::format(" | not heard for {:.0f} s", silent_s));
-    text += fmt::format(
-        "  loss {:.4g} | learning rate {:.3g} | {} transitions in the replay memory | networks {} and {} | "
-        "staleness "
-        "{:.0f} updates\n",
+    std::string progress = ProgressLine(learner, DescriptionOf(names));
+    if (silent_s >= 1) {
+      progress += fmt::format(" | not heard for {:.0f} s", silent_s);
+    }
+    if (!run.references.empty()) {
+      progress += " | for comparison: " + run.references;
+    }
+    text += Wrapped(progress);
+    text += Wrapped(fmt::format(
+        "loss {:.4g} | learning rate {:.3g} | {} transitions in the replay memory | networks {} and {} | "
+        "staleness {:.0f} updates",
         learner.loss, learner.learning_rate, learner.replay_size, learner.current_version,
-        learner.target_version, learner.staleness_updates);
-    text += fmt::format(
-        "  received {} | asked for again {} | duplicate {} | rejected {} | networks sent {:.1f} kB/s\n",
-        learner.received, learner.lost, learner.duplicate, learner.rejected,
-        1e-3 * static_cast<double>(run.network_bytes) / seconds);
+        learner.target_version, learner.staleness_updates));
+    std::string traffic = fmt::format("received {} | asked for again {} | duplicate {} | rejected {}",
+                                      learner.received, learner.lost, learner.duplicate, learner.rejected);
+    if (!only_run_) {
+      traffic += fmt::format(" | networks sent {:.1f} kB/s",
+                             1e-3 * static_cast<double>(run.network_bytes) / seconds);
+    }
+    text += Wrapped(traffic);
+    if (run.evaluations.size() > 1) {
+      const Quantity figure = DescriptionOf(names).figures.front();
+      TextCurve curve{.title = "  " + Title(figure.name) +
+                               (figure.unit.empty() ? "" : " [" + figure.unit + "]") +
+                               ": * best so far, . evaluations" +
+                               (learner.optimum_proved != 0 ? ", - exact optimum" : ""),
+                      .points = run.evaluations};
+      if (learner.optimum_proved != 0 && std::isfinite(learner.score_bound)) {
+        curve.optimum = learner.score_bound;
+      }
+      text += Draw(curve);
+    }
   } else {
     text += "  no learner heard\n";
   }
-  text += fmt::format("  {:<28} {:>13} {:>9} {:>8} {:>10} {:>8} {:>11}\n", "actor", "transitions/s", "orders",
-                      "behind", "sent again", "rejected", "network ms");
+  text += fmt::format("  {:<20} {:>13} {:>8} {:>6} {:>6} {:>8} {:>10}\n", "actor", "transitions/s", "orders",
+                      "behind", "resent", "rejected", "network ms");
   for (const auto& [actor_id, actor] : run.actors) {
     text += ActorLine(actor.status, run.learner);
   }
@@ -135,6 +269,9 @@ std::string RunWatch::Text(int64_t now_us) {
   for (auto& [run_id, run] : runs_) {
     text += TextOf(run_id, run, seconds, now_us) + "\n";
     run.network_bytes = 0;
+  }
+  if (only_run_) {
+    return text;
   }
   text += fmt::format("{}{:.0f} messages/s on the bus, {} damaged\n", runs_.empty() ? "no run heard\n" : "",
                       static_cast<double>(messages_) / seconds, damaged_);

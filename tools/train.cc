@@ -3,9 +3,11 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "bus/open_bus.h"
+#include "core/clock.h"
 #include "core/command_line.h"
 #include "core/help_formatter.h"
 #include "core/installation.h"
@@ -17,6 +19,7 @@
 #include "processes/training_run.h"
 #include "report/result_display.h"
 #include "report/run_report.h"
+#include "report/run_watch.h"
 #include "storage/policy.h"
 #include "storage/run_folder.h"
 #include "storage/summary.h"
@@ -56,16 +59,26 @@ Settings SettingsFrom(const TrainOptions& options) {
 
 /// Starts the run and watches it until it ends or the program is asked to stop. Returns the learner's exit
 /// status.
-int MindRun(TrainingRun& run, const WorldDescription& world) {
+int MindRun(TrainingRun& run, const Experiment& experiment) {
   constexpr int64_t kPollUs = 50'000;
   constexpr double kSilentS = 3;
   LiveLine line(true);
+  const auto view =
+      std::make_shared<RunWatch>(ChannelsWithPrefix(experiment.run().channel_prefix()), run.run_id());
+  if (line.on_terminal()) {
+    for (const std::string& channel : view->NeededChannels()) {
+      run.bus().Subscribe(channel, [view, channel](std::span<const std::byte> message) {
+        view->Add({.channel = channel, .message = message}, MonotonicMicroseconds());
+      });
+    }
+  }
   run.Start();
   while (!StopSignal::Requested() && run.Step(kPollUs)) {
     if (run.SilentSeconds() > kSilentS) {
       line.Show(fmt::format("no status from the learner for {:.0f} s", run.SilentSeconds()));
-    } else if (run.status()) {
-      line.Show(ProgressLine(*run.status(), world));
+    } else if (run.status() && line.IsDue()) {
+      line.Show(line.on_terminal() ? view->Text(MonotonicMicroseconds())
+                                   : ProgressLine(*run.status(), experiment.world().description()));
     }
   }
   return run.End();
@@ -85,13 +98,13 @@ std::string Interruption(const std::filesystem::path& folder) {
 }
 
 /// Runs a run that was checked already, and shows its results. Returns the exit status.
-int Train(TrainingRun& run, const WorldDescription& world, const std::filesystem::path& folder,
+int Train(TrainingRun& run, const Experiment& experiment, const std::filesystem::path& folder,
           const TrainOptions& options) {
   const bool text = options.format == "text";
   if (options.record) {
     run.Record(options.record_split_mb);
   }
-  const int status = MindRun(run, world);
+  const int status = MindRun(run, experiment);
   const std::string summary = run.Summary();
   fmt::print("{}", text ? ResultTable(summary) : summary);
   std::fflush(stdout);
@@ -123,7 +136,7 @@ int TrainAnew(const TrainOptions& options) {
   if (options.format == "text") {
     Announce(experiment, folder);
   }
-  return Train(run, experiment.world().description(), folder, options);
+  return Train(run, experiment, folder, options);
 }
 
 int GoOn(const TrainOptions& options) {
@@ -137,7 +150,7 @@ int GoOn(const TrainOptions& options) {
                resumption.checkpoint ? resumption.checkpoint->training.progress.episodes : 0);
     Announce(resumption.experiment, options.resume);
   }
-  return Train(run, resumption.experiment.world().description(), options.resume, options);
+  return Train(run, resumption.experiment, options.resume, options);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ class Watch(FrescoTest):
         self.start_run(7860)
         text = self.once(7860)
         self.assertRegex(text, f"(?m)^run {self.run_id('run'):016x}, world uav$")
-        self.assertRegex(text, r"(?m)^ +\d+% \| \d+ of 1000000 episodes \| \d+ updates .* greedy average AoI \d+\.\d+.*2 actors")
+        self.assertRegex(text, r"(?ms)^ +\d+% \| \d+ of 1000000 episodes \| \d+ updates .* greedy average AoI \d+\.\d+.*2 actors")
+        self.assertRegex(text, r"for comparison: AoI-based \d+\.\d+, distance-based \d+\.\d+")
         self.assertRegex(text, r"loss 0?\.?\d.* transitions in the replay memory")
         self.assertEqual(len(re.findall(r"(?m)^  \S+:\d+ +\d+ +\d+/\d+ +\d+ +\d+ +0 +\d+\.\d$", text)), 2, text)
         self.assertRegex(text, r"(?m)^[1-9]\d+ messages/s on the bus, 0 damaged$")
@@ -61,6 +62,25 @@ class Watch(FrescoTest):
         self.assertEqual(watch.wait(20), 0, watch.stderr.read())
         watch.stderr.close()
         os.close(master)
+
+    def test_train_shows_its_run_on_a_terminal(self):
+        master, slave = pty.openpty()
+        train = subprocess.Popen([BIN / "fresco", "train", "--config", CI_CONFIG, "--lcm-url", url(7864), "--out", self.folder / "run"],
+                                 stdin=slave, stdout=subprocess.DEVNULL, stderr=slave)
+        self.addCleanup(train.kill)
+        os.close(slave)
+        screen = b""
+        try:
+            while part := os.read(master, 65536):
+                screen += part
+        except OSError:
+            pass  # the terminal is closed
+        self.assertEqual(train.wait(60), 0)
+        os.close(master)
+        last = screen.decode().split("\x1b[J")[-1].replace("\r", "")
+        self.assertRegex(last, r"^run [0-9a-f]{16}, world uav\n  \[#+ *\]")
+        self.assertRegex(last, r"average AoI \[slots\]: \* best so far, \. evaluations[^\n]*\n( +[\d.]+ \||  +\|)")
+        self.assertNotIn("messages/s on the bus", last)
 
     def test_prints_texts_without_a_terminal_until_it_is_told_to_end(self):
         watch = self.start("watch", "--lcm-url", url(7863))
