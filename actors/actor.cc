@@ -41,6 +41,7 @@ Actor::Actor(Bus& bus, const Channels& channels, ActorOptions options)
       arithmetic_fingerprint_(ArithmeticFingerprint()) {
   Subscribe(channels_.run, &Actor::HandleRun);
   Subscribe(channels_.orders, &Actor::HandleOrders);
+  Subscribe(channels_.probe, &Actor::HandleProbe);
   Subscribe(channels_.weights_current, &Actor::HandleWeights<NetworkKind::kCurrent>);
   Subscribe(channels_.weights_target, &Actor::HandleWeights<NetworkKind::kTarget>);
 }
@@ -74,6 +75,32 @@ void Actor::HandleRun(const run_t& message) {
   if (const auto text = announcements_.Add(message)) {
     Join(message, *text);
   }
+}
+
+/// Answers, so that the doctor learns what the network carries. A flood of probes gets few answers.
+void Actor::HandleProbe(const probe_t& probe) {
+  constexpr int kMaximumEchoesPerSecond = 20'000;
+  if (probe.run_id == 0 || probe.actor_id != 0) {
+    return;
+  }
+  if (probe.run_id != probe_series_) {
+    probe_series_ = probe.run_id;
+    probes_ = 0;
+  }
+  ++probes_;
+  if (const int64_t second = now_us_ / 1'000'000; second != echo_second_) {
+    echo_second_ = second;
+    echoes_ = 0;
+  }
+  if (++echoes_ > kMaximumEchoesPerSecond) {
+    return;
+  }
+  probe_t echo = probe;
+  echo.actor_id = options_.actor_id;
+  echo.host = options_.host.substr(0, probe_t::MAXIMUM_HOST_BYTES);
+  echo.pid = options_.pid;
+  echo.received = probes_;
+  bus_.Publish(channels_.echo, std::move(echo), {probe.run_id, 0});
 }
 
 /// Whether the run that is served is a recording, and the other one is not.

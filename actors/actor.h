@@ -77,6 +77,7 @@ class Actor {
  private:
   void HandleRun(const run_t& message);
   void HandleOrders(const orders_t& message);
+  void HandleProbe(const probe_t& probe);
   template <NetworkKind kind>
   void HandleWeights(const weights_t& message);
   bool IsMine(RunIdentity identity, int64_t utime);
@@ -107,7 +108,11 @@ class Actor {
   int64_t next_sequence_ = 0;  // of the statuses
   int64_t next_status_us_ = 0;
   int64_t next_request_us_ = 0;
-  RateMeter rate_;  // of the transitions
+  RateMeter rate_;            // of the transitions
+  int64_t probe_series_ = 0;  // run_id of the last probe
+  int32_t probes_ = 0;        // received of this series
+  int64_t echo_second_ = 0;   // of the last answer to a probe
+  int echoes_ = 0;            // sent in this second
 };
 
 }  // namespace fresco

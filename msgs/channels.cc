@@ -26,7 +26,9 @@ Channels ChannelsWithPrefix(const std::string& prefix) {
           prefix + "_LEARNER_STATUS",
           prefix + "_WORLD",
           prefix + "_SCENARIO",
-          prefix + "_FLIGHT"};
+          prefix + "_FLIGHT",
+          prefix + "_PROBE",
+          prefix + "_ECHO"};
 }
 
 }  // namespace fresco

@@ -18,6 +18,8 @@ struct Channels {
   std::string world;
   std::string scenario;
   std::string flight;
+  std::string probe;
+  std::string echo;
 };
 
 inline constexpr char kDefaultChannelPrefix[] = "FRESCO";

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,7 @@
 #include "core/memory.h"
 #include "msgs/channels.h"
 #include "nn/arithmetic.h"
+#include "tools/host_probe.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -45,6 +47,8 @@ struct DoctorOptions {
   std::string channel_prefix = kDefaultChannelPrefix;
   std::string folder = ".";
   std::string format = "text";
+  bool hosts = false;
+  ProbeOptions probe{};  // its URL and prefix are those above
 };
 
 /// A UDP socket that closes itself.
@@ -192,6 +196,60 @@ Finding CheckDelivery(const DoctorOptions& options) {
   return {"delivery", Health::kGood, found};
 }
 
+/// What is wrong between this host and an actor's, if anything.
+Finding CheckActor(const ProbedActor& actor, const ProbeResult& probes) {
+  constexpr double kTolerableLoss = 0.01;
+  constexpr double kTolerableSkewS = 1;  // log times mix, and recorded runs are told by their age
+  if (actor.received == 0) {
+    return {"host " + actor.host, Health::kWarning,
+            fmt::format("actor {} is heard, but answers none of {} messages: its host has a firewall, a URL "
+                        "with ttl=0 is "
+                        "used here, or its --key-file is another one",
+                        actor.pid, probes.sent),
+            kAcceptMulticast};
+  }
+  const double lost_there = 1 - static_cast<double>(actor.received) / probes.sent;
+  const double lost_here = 1 - static_cast<double>(actor.answers) / std::max(actor.received, 1);
+  Finding finding{
+      "host " + actor.host, Health::kGood,
+      fmt::format("actor {}: of {} messages at {:.0f} a second {:.2f} % lost on the way there, {:.2f} % on "
+                  "the way back; round trip {:.2f} ms; clock {:+.3f} s",
+                  actor.pid, probes.sent, probes.sent_per_s, 100 * lost_there, 100 * lost_here,
+                  actor.round_trip_ms, actor.clock_ahead_s)};
+  if (lost_there > kTolerableLoss || lost_here > kTolerableLoss) {
+    finding.health = Health::kWarning;
+    const std::string where = lost_there > lost_here ? "on " + actor.host : "on this host";
+    finding.found += "; more buffer may help, " + where;
+    finding.command = "sysctl -w net.core.rmem_max=4194304 net.core.rmem_default=4194304";
+  } else if (std::abs(actor.clock_ahead_s) > kTolerableSkewS) {
+    finding.health = Health::kWarning;
+    finding.found += "; set the clock of the host that is wrong";
+    finding.command = "timedatectl set-ntp true";
+  }
+  return finding;
+}
+
+/// Which hosts with an actor hear this one, and are heard.
+std::vector<Finding> CheckHosts(const DoctorOptions& options) {
+  ProbeOptions probe = options.probe;
+  probe.lcm_url = options.lcm_url;
+  probe.channel_prefix = options.channel_prefix;
+  const ProbeResult probes = ProbeActors(probe);
+  std::vector<Finding> findings;
+  for (const ProbedActor& actor : probes.actors) {
+    findings.push_back(CheckActor(actor, probes));
+  }
+  if (findings.empty()) {
+    findings.push_back(
+        {"hosts", Health::kFailure,
+         fmt::format("no actor answered {} messages; start one on each of the other hosts, with a URL "
+                     "whose ttl is 1 or more on all hosts",
+                     probes.sent),
+         fmt::format("fresco-actor --lcm-url '{}'", options.lcm_url)});
+  }
+  return findings;
+}
+
 Finding CheckProcessor() {
   const std::string name = CurrentArithmetic().name;
   return {"processor", Health::kGood,
@@ -266,6 +324,11 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
       add({"delivery", Health::kFailure, error.what(), kAcceptMulticast});
     }
   }
+  if (bus_works && options.hosts) {
+    for (Finding& finding : CheckHosts(options)) {
+      add(std::move(finding));
+    }
+  }
   add(CheckProcessor());
   add(CheckMemory());
   add(CheckDisk(options.folder));
@@ -321,10 +384,19 @@ void AddDoctor(CLI::App& app, Command& command) {
   doctor->add_option("--folder", options->folder, "Where runs will be written")
       ->type_name("FOLDER")
       ->capture_default_str();
+  CLI::Option* hosts = doctor->add_flag(
+      "--hosts", options->hosts,
+      "Also ask the actors on the bus, on any host, for answers: who hears whom, losses, clocks");
+  doctor
+      ->add_option("--rate", options->probe.messages_per_s, "Messages a second that each actor has to answer")
+      ->capture_default_str()
+      ->needs(hosts)
+      ->check(CLI::Range(1, 10'000));
+  AddKeyFileOption(*doctor, options->probe.key_file);
   doctor->add_option("--format", options->format, "How the result is printed")
       ->check(OneOf({"text", "json"}));
   doctor->footer(
-      HelpExamples({"fresco doctor", "fresco doctor --lcm-url 'udpm://239.255.76.67:7667?ttl=1'"}) +
+      HelpExamples({"fresco doctor", "fresco doctor --hosts --lcm-url 'udpm://239.255.76.67:7667?ttl=1'"}) +
       "\n\nExit status: 0 training works, 1 it can't.");
   doctor->callback([options, &command] { command = [options] { return Doctor(*options); }; });
 }

@@ -25,6 +25,55 @@ TEST_F(ActorTest, AsksForARunWhileThereIsNone) {
   }
 }
 
+TEST_F(ActorTest, AnswersProbesAndCountsThoseOfASeries) {
+  std::vector<probe_t> answers;
+  MessageBus doctor(*bus_);
+  doctor.Subscribe<probe_t>(channels_.echo, [&](const probe_t& answer) { answers.push_back(answer); });
+  const auto ask = [&](int64_t series, int32_t number) {
+    probe_t probe{};
+    probe.number = number;
+    probe.padding_count = 3;
+    probe.padding = {1, 2, 3};
+    doctor.Publish(channels_.probe, probe, {series, 0});
+    Step();
+    Step();
+  };
+  ask(7, 0);
+  ask(7, 5);
+  ask(8, 0);
+  ASSERT_EQ(answers.size(), 3U);
+  EXPECT_EQ(answers[1].run_id, 7);
+  EXPECT_EQ(answers[1].number, 5);
+  EXPECT_EQ(answers[1].received, 2);
+  EXPECT_EQ(answers[1].actor_id, kActorId);
+  EXPECT_EQ(answers[1].pid, 321);
+  EXPECT_EQ(answers[1].host, "here");
+  EXPECT_EQ(answers[1].padding, (std::vector<uint8_t>{1, 2, 3}));
+  EXPECT_EQ(answers[2].received, 1);
+}
+
+TEST_F(ActorTest, AnswersNoAnswerAndNoEndlessFlood) {
+  int answers = 0;
+  MessageBus doctor(*bus_);
+  doctor.Subscribe<probe_t>(channels_.echo, [&](const probe_t&) { ++answers; });
+  probe_t probe{};
+  probe.actor_id = 5;
+  doctor.Publish(channels_.probe, probe, {7, 0});
+  probe.actor_id = 0;
+  doctor.Publish(channels_.probe, probe, {0, 0});
+  Step();
+  Step();
+  EXPECT_EQ(answers, 0);
+  for (int i = 0; i < 30; ++i) {
+    for (int j = 0; j < 1000; ++j) {
+      doctor.Publish(channels_.probe, probe, {7, 0});
+    }
+    Step(1);
+  }
+  Step(1);
+  EXPECT_EQ(answers, 20'000);
+}
+
 TEST_F(ActorTest, SendsAStatusEveryStatusPeriodAndNotMoreOften) {
   const size_t before = learner_.statuses().size();
   for (int i = 0; i < 1000; ++i) {

@@ -8,7 +8,11 @@ import shutil
 import subprocess
 import unittest
 
+import network_hosts
+from fresco_process import BIN, FrescoTest, wait_until
+
 FRESCO = pathlib.Path(os.environ["FRESCO_BIN"]) / "fresco"
+HOSTS_URL = "udpm://239.255.76.67:7667?ttl=1"
 ROUTE = "ip route add 224.0.0.0/4 dev lo"
 
 # Takes the port for itself until its standard input ends.
@@ -106,6 +110,69 @@ class Doctor(unittest.TestCase):
         text = in_namespace("code=0; \"$FRESCO\" doctor || code=$?; test $code = 1")
         self.assertIn(f"mend it: {ROUTE}\n", text)
         self.assertTrue(text.endswith("Training can't work on this machine.\n"))
+
+
+class Hosts(FrescoTest):
+    """fresco doctor --hosts, asking actors on other hosts."""
+
+    def setUp(self):
+        super().setUp()
+        reason = network_hosts.why_not()
+        if reason:
+            self.skipTest(reason)
+        self.hosts = network_hosts.Hosts(3)
+        self.addCleanup(self.hosts.remove)
+
+    def start_actor(self, host, *before):
+        actor = self.start_command(self.hosts.command(host, *before, BIN / "fresco-actor", "--lcm-url", HOSTS_URL))
+        wait_until(lambda: "waiting for a run" in actor.stderr.readline(), "the actor")
+        return actor
+
+    def ask(self, status=0):
+        """What the doctor on host 0 found of each actor, by process id; 0: of none."""
+        doctor = self.start_command(self.hosts.command(0, FRESCO, "doctor", "--hosts", "--format", "json", "--lcm-url", HOSTS_URL))
+        output, errors = doctor.communicate(timeout=60)
+        self.assertEqual(doctor.returncode, status, errors)
+        hosts = [finding for finding in json.loads(output)["findings"] if finding["name"].startswith("host")]
+        return {int(re.search(r"actor (\d+)|$", finding["found"])[1] or 0): finding for finding in hosts}
+
+    def test_tells_losses_of_both_ways(self):
+        sound, lossy = self.start_actor(1), self.start_actor(2)
+        answers = self.ask()
+        for actor in (sound, lossy):
+            self.assertEqual(answers[actor.pid]["health"], "good", answers)
+            self.assertRegex(answers[actor.pid]["found"],
+                             r"of 2000 messages at 1?\d{3} a second 0\.\d\d % lost on the way there, 0\.\d\d % on the way back")
+            self.assertRegex(answers[actor.pid]["found"], r"clock [+-]0\.00\d s")
+        self.hosts.lose(2, 200)
+        answers = self.ask()
+        self.assertEqual(answers[sound.pid]["health"], "good", answers)
+        self.assertEqual(answers[lossy.pid]["health"], "warning", answers)
+        there, back = map(float, re.search(r"second (\S+) % lost on the way there, (\S+) % on", answers[lossy.pid]["found"]).groups())
+        self.assertAlmostEqual(there, 20, delta=6)
+        self.assertLess(back, 1)
+
+    def test_tells_of_a_clock_that_is_wrong(self):
+        library = next(pathlib.Path("/usr/lib").glob("*/faketime/libfaketime.so.1"), None)
+        if library is None:
+            self.skipTest("there is no libfaketime.so.1 (Debian package libfaketime)")
+        self.start_actor(1, "env", f"LD_PRELOAD={library}", "FAKETIME=+5s")
+        answer = next(iter(self.ask().values()))
+        self.assertEqual(answer["health"], "warning", answer)
+        self.assertRegex(answer["found"], r"clock \+(4\.9|5\.0)\d\d s")
+        self.assertEqual(answer["command"], "timedatectl set-ntp true")
+
+    def test_tells_of_a_host_that_does_not_hear_this_one(self):
+        actor = self.start_actor(1)
+        self.hosts.deafen(1)
+        answer = self.ask()[actor.pid]
+        self.assertEqual(answer["health"], "warning")
+        self.assertIn("is heard, but answers none of 2000 messages", answer["found"])
+
+    def test_says_what_to_start_if_nobody_answers(self):
+        answer = self.ask(status=1)[0]
+        self.assertIn("no actor answered", answer["found"])
+        self.assertEqual(answer["command"], f"fresco-actor --lcm-url '{HOSTS_URL}'")
 
 
 if __name__ == "__main__":

@@ -63,9 +63,13 @@ class Hosts:
         drop = f"numgen random mod 1000 < {per_mille} counter drop" if per_mille else ""
         self._filter(self._names[host], "eth0", drop)
 
+    def deafen(self, host):
+        """Nothing reaches the host, until `lose`."""
+        self._filter(self._names[host], "eth0", "counter drop")
+
     def cut_off(self, host):
         """Nothing reaches the host or leaves it, until `lose`, and `connect`."""
-        self._filter(self._names[host], "eth0", "counter drop")
+        self.deafen(host)
         self._filter(self._bridge, f"port{host}", "counter drop")
 
     def connect(self, host):

@@ -168,6 +168,14 @@ flight_t FlightOf(RandomStream& stream, int sensors, int policy_length) {
   return message;
 }
 
+probe_t ProbeOf(RandomStream& stream, int padding, int host_length) {
+  auto message = WithNumbers<probe_t>(stream);
+  message.host = RandomText(stream, host_length);
+  message.padding_count = padding;
+  Fill(stream, message.padding, padding);
+  return message;
+}
+
 void Randomise(RandomStream& stream, orders_t& message) {
   message = OrdersOf(stream, Below(stream, kMaximumOrdersPerMessage + 1));
 }
@@ -198,6 +206,11 @@ void Randomise(RandomStream& stream, scenario_t& message) {
 void Randomise(RandomStream& stream, flight_t& message) {
   message = FlightOf(stream, Below(stream, flight_t::MAXIMUM_SENSOR_COUNT + 1),
                      Below(stream, kMaximumPolicyBytes + 1));
+}
+
+void Randomise(RandomStream& stream, probe_t& message) {
+  message = ProbeOf(stream, Below(stream, probe_t::MAXIMUM_PADDING_COUNT + 1),
+                    Below(stream, probe_t::MAXIMUM_HOST_BYTES + 1));
 }
 
 OrderResult RandomResult(const World& world, const Order& order, RandomStream& stream) {
@@ -249,6 +262,9 @@ void MakeLargest(RandomStream& stream, scenario_t& message) {
 }
 void MakeLargest(RandomStream& stream, flight_t& message) {
   message = FlightOf(stream, flight_t::MAXIMUM_SENSOR_COUNT, kMaximumPolicyBytes);
+}
+void MakeLargest(RandomStream& stream, probe_t& message) {
+  message = ProbeOf(stream, probe_t::MAXIMUM_PADDING_COUNT, probe_t::MAXIMUM_HOST_BYTES);
 }
 
 }  // namespace fresco

@@ -24,6 +24,7 @@ void Randomise(RandomStream& stream, learner_status_t& message);
 void Randomise(RandomStream& stream, world_t& message);
 void Randomise(RandomStream& stream, scenario_t& message);
 void Randomise(RandomStream& stream, flight_t& message);
+void Randomise(RandomStream& stream, probe_t& message);
 
 /// A message with random content and every array and text as long as the codecs allow; transitions_t, whose
 /// arrays share the frame, fills it.
@@ -36,6 +37,7 @@ void MakeLargest(RandomStream& stream, learner_status_t& message);
 void MakeLargest(RandomStream& stream, world_t& message);
 void MakeLargest(RandomStream& stream, scenario_t& message);
 void MakeLargest(RandomStream& stream, flight_t& message);
+void MakeLargest(RandomStream& stream, probe_t& message);
 
 template <class Message>
 Message LargestMessage(RandomStream& stream) {
@@ -60,6 +62,7 @@ actor_status_t ActorStatusOf(RandomStream& stream, int held, int missing, int ho
 learner_status_t LearnerStatusOf(RandomStream& stream, int waiting_for_length, int warning_length);
 world_t WorldOf(RandomStream& stream, int world_length, int success_length, int entries_length);
 scenario_t ScenarioOf(RandomStream& stream, int sensors, int cells);
+probe_t ProbeOf(RandomStream& stream, int padding, int host_length);
 flight_t FlightOf(RandomStream& stream, int sensors, int policy_length);
 
 /// A configuration as a learner announces it, in parts of at most so many bytes.

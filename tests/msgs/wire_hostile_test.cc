@@ -165,6 +165,7 @@ TEST(HostileString, IsRejectedWhereItsLengthIsAbsurd) {
   ExpectStringsOfAbsurdLengthRejected(ActorStatusOf(stream, 3, 3, 0), &actor_status_t::host);
   ExpectStringsOfAbsurdLengthRejected(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
   ExpectStringsOfAbsurdLengthRejected(FlightOf(stream, 4, 0), &flight_t::policy);
+  ExpectStringsOfAbsurdLengthRejected(ProbeOf(stream, 4, 0), &probe_t::host);
   ExpectStringsOfAbsurdLengthRejected(WorldOf(stream, 0, 0, 0), &world_t::entries);
 }
 
@@ -187,6 +188,7 @@ TEST(HostileString, HasOneNulAtItsEnd) {
   ExpectOneNulAtTheEndOf(ActorStatusOf(stream, 2, 1, 0), &actor_status_t::host);
   ExpectOneNulAtTheEndOf(LearnerStatusOf(stream, 0, 0), &learner_status_t::warning);
   ExpectOneNulAtTheEndOf(FlightOf(stream, 3, 0), &flight_t::policy);
+  ExpectOneNulAtTheEndOf(ProbeOf(stream, 3, 0), &probe_t::host);
   ExpectOneNulAtTheEndOf(WorldOf(stream, 0, 0, 0), &world_t::entries);
 }
 
