@@ -60,3 +60,20 @@ function(fresco_lcm_java_descriptions variable target)
     DEPENDS ${FRESCO_DESCRIBE_MESSAGES} ${sources} COMMENT "describe the messages for Java" VERBATIM)
   set(${variable} ${output} PARENT_SCOPE)
 endfunction()
+
+# fresco_lcm_python_package(target package parent folder): the Python package `parent`.`package` of the types of a target
+# that fresco_lcm_types made, as a folder in `folder`, and beside it message_types.py, which describes them. The target
+# python_`target` makes it.
+function(fresco_lcm_python_package target package parent folder)
+  get_target_property(sources ${target} FRESCO_LCM_SOURCES)
+  set(generated ${CMAKE_CURRENT_BINARY_DIR}/lcm-python)
+  set(descriptions ${folder}/message_types.py)
+  file(MAKE_DIRECTORY ${generated}/${parent}/${package} ${folder})
+  file(CREATE_LINK ${generated}/${parent}/${package} ${folder}/${package} SYMBOLIC)
+  add_custom_command(OUTPUT ${descriptions}
+    COMMAND ${LCM_GEN} -p --ppath ${generated} --package-prefix ${parent} ${sources}
+    COMMAND Python3::Interpreter ${FRESCO_DESCRIBE_MESSAGES} --python ${descriptions} ${sources}
+    DEPENDS ${FRESCO_DESCRIBE_MESSAGES} ${sources} COMMENT "lcm-gen for Python" VERBATIM)
+  add_custom_target(python_${target} ALL DEPENDS ${descriptions})
+  set_target_properties(python_${target} PROPERTIES FRESCO_LCM_PYTHON ${generated}/${parent}/${package})
+endfunction()

@@ -61,13 +61,15 @@ size_t FindSyncWord(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-EventLogReader::EventLogReader(std::filesystem::path path)
+EventLogReader::EventLogReader(std::filesystem::path path, Beginning beginning)
     : path_(std::move(path)), descriptor_(open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (descriptor_ < 0) {
     throw UsageError(fmt::format("can't read {}: {}", path_.string(), std::strerror(errno)));
   }
   try {
-    if (!std::filesystem::is_regular_file(path_) || (Buffer(kSyncBytes) && !IsSyncWord(buffered().data()))) {
+    const bool is_file = std::filesystem::is_regular_file(path_);
+    if (!is_file ||
+        (beginning == Beginning::kSound && Buffer(kSyncBytes) && !IsSyncWord(buffered().data()))) {
       throw UsageError(fmt::format(
           "{}: expected an LCM event log, as lcm-logger and fresco log record write them; found a file that "
           "does not begin with the sync word ED A1 DA 01",

@@ -22,9 +22,14 @@ inline constexpr size_t kEventHeaderBytes = 28;
 
 class EventLogReader {
  public:
+  enum class Beginning {
+    kSound,         ///< a file that does not begin with a sync word is refused: it is probably no log
+    kMaybeDamaged,  ///< bytes before the first event are skipped as damage
+  };
+
   /// Opens the file. Throws UsageError if it can't be read or does not begin like an event log. A file that
   /// is empty or shorter than a sync word counts as a log without events.
-  explicit EventLogReader(std::filesystem::path path);
+  explicit EventLogReader(std::filesystem::path path, Beginning beginning = Beginning::kSound);
   ~EventLogReader();
   EventLogReader(const EventLogReader&) = delete;
   EventLogReader& operator=(const EventLogReader&) = delete;

@@ -43,7 +43,7 @@ bool ChannelFilter::Matches(std::string_view channel) {
 
 EventSelection::EventSelection(const SelectionOptions& options)
     : channels_(options.channels, "--channel"),
-      start_us_(1e6 * options.start_s),
+      start_us_(options.start_s > 0 ? 1e6 * options.start_s : -std::numeric_limits<double>::infinity()),
       stop_us_(1e6 * options.stop_s) {
   if (!(options.start_s < options.stop_s)) {
     throw UsageError(fmt::format("--stop: expected more than --start ({} s), found {} s", options.start_s,

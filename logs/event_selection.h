@@ -35,7 +35,7 @@ class ChannelFilter {
 struct SelectionOptions {
   std::vector<std::string> channels = {};  ///< regular expressions of channels to select; empty: all
   std::vector<std::string> dropped = {};   ///< regular expressions of channels to leave out
-  double start_s = 0;                      ///< seconds after the first event, included
+  double start_s = 0;  ///< seconds after the first event, included; 0: all, also if the clock went backwards
   double stop_s = std::numeric_limits<double>::infinity();  ///< seconds after the first event, not included
   std::string run = {};  ///< id of a run in hexadecimal digits, as in summary.json; empty: all
 };

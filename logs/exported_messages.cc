@@ -15,17 +15,6 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-template <class Message>
-NamedRow RowOf(const Message& message) {
-  NamedRow row;
-  ForEachField(message, [&](const char* name, const auto& value) {
-    if constexpr (requires { CellOf(name, value); }) {
-      row.emplace_back(name, CellOf(name, value));
-    }
-  });
-  return row;
-}
-
 /// The indices of the actions that a mask allows, separated by spaces.
 std::string AllowedActions(const std::vector<uint8_t>& mask, int actions) {
   std::string text;
@@ -44,16 +33,20 @@ const char* EndingName(int ending) {
 }
 
 /// The name of a field of the state or, without names, its number.
-std::string FieldName(const WorldNames* names, const transitions_t& message, size_t field) {
-  const size_t number = static_cast<size_t>(message.first_field) + field;
+std::string FieldName(const WorldNames* names, size_t number) {
   return names != nullptr && number < names->state.size() ? names->state[number].name
                                                           : fmt::format("state_{}", number);
+}
+
+std::string ActionName(const WorldNames* names, int16_t action) {
+  const bool named = names != nullptr && action >= 0 && static_cast<size_t>(action) < names->actions.size();
+  return named ? names->actions[static_cast<size_t>(action)] : std::string();
 }
 
 void AddState(const transitions_t& message, const WorldNames* names, size_t i, const std::string& prefix,
               NamedRow& row) {
   for (size_t field = 0; field < message.state[i].size(); ++field) {
-    const std::string name = FieldName(names, message, field);
+    const std::string name = FieldName(names, static_cast<size_t>(message.first_field) + field);
     row.emplace_back(prefix + name, CellOf(name, message.state[i][field]));
   }
 }
@@ -68,10 +61,8 @@ NamedRow TransitionRow(const transitions_t& message, const WorldNames* names, si
   const bool is_last = i + 1 == static_cast<size_t>(message.transition_count);
   row.emplace_back("ending", EndingName(is_last ? message.ending : 0));
   AddState(message, names, i, "", row);
-  const int16_t action = message.action[i];
-  const bool named = names != nullptr && action >= 0 && static_cast<size_t>(action) < names->actions.size();
-  row.emplace_back("action", int64_t{action});
-  row.emplace_back("action_name", named ? names->actions[static_cast<size_t>(action)] : std::string());
+  row.emplace_back("action", int64_t{message.action[i]});
+  row.emplace_back("action_name", ActionName(names, message.action[i]));
   row.emplace_back("reward", CellOf("reward", message.reward[i]));
   row.emplace_back("td_error", CellOf("td_error", message.td_error[i]));
   AddState(message, names, i + 1, "next_", row);
@@ -81,10 +72,19 @@ NamedRow TransitionRow(const transitions_t& message, const WorldNames* names, si
 }
 
 template <class Message>
-OrderedJson JsonOf(const Message& message);
+OrderedJson JsonOf(const Message& message, const WorldNames* names = nullptr);
 
 OrderedJson JsonOfCell(const CsvCell& cell) {
   return std::visit([](const auto& value) { return OrderedJson(value); }, cell);
+}
+
+OrderedJson JsonOfState(const NamedState& state) {
+  OrderedJson json = OrderedJson::object();
+  for (size_t field = 0; field < state.values->size(); ++field) {
+    const std::string name = FieldName(state.names, state.first_field + field);
+    json[name] = JsonOfCell(CellOf(name, (*state.values)[field]));
+  }
+  return json;
 }
 
 template <class Value>
@@ -97,46 +97,38 @@ OrderedJson JsonOfField(const char* name, const Value& value) {
       list.push_back(JsonOfField(name, element));
     }
     return list;
+  } else if constexpr (std::is_same_v<Value, NamedState>) {
+    return JsonOfState(value);
   } else {
     return JsonOf(value);
   }
 }
 
 template <class Message>
-OrderedJson JsonOf(const Message& message) {
+OrderedJson JsonOf(const Message& message, const WorldNames* names) {
   OrderedJson json = OrderedJson::object();
-  ForEachField(message, [&json](const char* name, const auto& value) {
-    if constexpr (std::is_same_v<decltype(value), const std::vector<uint8_t>&>) {  // part of a text
-      json[name] = std::string(value.begin(), value.end());
-    } else {
-      json[name] = JsonOfField(name, value);
-    }
+  ForEachExportedField(message, names, [&json](const char* name, const auto& value) {
+    json[name] = JsonOfField(name, value);
   });
   return json;
-}
-
-/// Replaces the states of the message's JSON by objects with the names of the fields, and adds the names of
-/// the actions.
-void NameTransitions(const transitions_t& message, const WorldNames& names, OrderedJson& json) {
-  OrderedJson states = OrderedJson::array();
-  for (const std::vector<float>& state : message.state) {
-    OrderedJson& named = states.emplace_back(OrderedJson::object());
-    for (size_t field = 0; field < state.size(); ++field) {
-      const std::string name = FieldName(&names, message, field);
-      named[name] = JsonOfCell(CellOf(name, state[field]));
-    }
-  }
-  json["state"] = std::move(states);
-  OrderedJson& actions = json["action_name"] = OrderedJson::array();
-  for (const int16_t action : message.action) {
-    const bool named = action >= 0 && static_cast<size_t>(action) < names.actions.size();
-    actions.push_back(named ? names.actions[static_cast<size_t>(action)] : "");
-  }
 }
 
 /// Returns the JSON in one line. Bytes of texts that are not UTF-8 become replacement characters.
 std::string Line(const OrderedJson& json) {
   return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+template <class Message>
+NamedRow RowOf(const Message& message) {
+  NamedRow row;
+  ForEachExportedField(message, nullptr, [&row](const char* name, const auto& value) {
+    if constexpr (requires { CellOf(name, value); }) {
+      row.emplace_back(name, CellOf(name, value));
+    } else {
+      row.emplace_back(name, Line(JsonOfField(name, value)));
+    }
+  });
+  return row;
 }
 
 }  // namespace
@@ -158,14 +150,32 @@ const WorldNames* WorldNamesByRun::Of(int64_t run_id) const {
   return found == by_run_.end() ? nullptr : found->second.names();
 }
 
+std::vector<NamedState> NamedStates(const transitions_t& message, const WorldNames& names) {
+  std::vector<NamedState> states;
+  for (const std::vector<float>& values : message.state) {
+    states.push_back({&names, static_cast<size_t>(message.first_field), &values});
+  }
+  return states;
+}
+
+std::vector<std::string> ActionNames(const transitions_t& message, const WorldNames& names) {
+  std::vector<std::string> actions;
+  for (const int16_t action : message.action) {
+    actions.push_back(ActionName(&names, action));
+  }
+  return actions;
+}
+
+bool IsIdentifier(std::string_view field) {
+  return field == "run_id" || field == "config_hash" || field == "crc32c" ||
+         field == "arithmetic_fingerprint";
+}
+
 CsvCell CellOf(std::string_view field, int64_t value) {
-  if (field == "run_id") {
-    return IdentifierText(value);
+  if (!IsIdentifier(field)) {
+    return value;
   }
-  if (field == "config_hash" || field == "crc32c" || field == "arithmetic_fingerprint") {
-    return fmt::format("{:08x}", static_cast<uint64_t>(value));
-  }
-  return value;
+  return field == "run_id" ? IdentifierText(value) : fmt::format("{:08x}", static_cast<uint64_t>(value));
 }
 
 CsvCell CellOf(std::string_view, double value) {
@@ -183,14 +193,6 @@ CsvCell CellOf(std::string_view, const std::string& value) {
   return value;
 }
 
-NamedRow StatusRow(const actor_status_t& status) {
-  return RowOf(status);
-}
-
-NamedRow StatusRow(const learner_status_t& status) {
-  return RowOf(status);
-}
-
 bool ForEachTransitionRow(const transitions_t& message, const WorldNames* names,
                           const std::function<void(const NamedRow&)>& handle) {
   if (message.state_count != message.transition_count + 1 || message.ending < 0 || message.ending > 2 ||
@@ -201,6 +203,24 @@ bool ForEachTransitionRow(const transitions_t& message, const WorldNames* names,
     handle(TransitionRow(message, names, i));
   }
   return true;
+}
+
+MessageDecoder::Result ForEachRow(const LcmEvent& event, MessageDecoder& decoder,
+                                  const WorldNamesByRun& names,
+                                  const std::function<void(const NamedRow&)>& handle) {
+  bool consistent = true;
+  const auto result = decoder.Decode(event.message, [&]<class Message>(const Message& message) {
+    if constexpr (std::is_same_v<Message, transitions_t>) {
+      consistent = ForEachTransitionRow(message, names.Of(message.run_id), handle);
+    } else {
+      handle(RowOf(message));
+    }
+  });
+  return consistent ? result : MessageDecoder::Result::kDamaged;
+}
+
+std::string Utf8Of(std::string_view text) {
+  return OrderedJson::parse(Line(OrderedJson(text))).get<std::string>();
 }
 
 std::string RowJson(const NamedRow& row) {
@@ -223,12 +243,7 @@ std::string EventJson(const LcmEvent& event, MessageDecoder& decoder, const Worl
   OrderedJson json = {{"utime", event.utime}, {"channel", event.channel}, {"type", nullptr}};
   const auto result = decoder.Decode(event.message, [&](const auto& message) {
     json["type"] = message.getTypeName();
-    json["message"] = JsonOf(message);
-    if constexpr (std::is_same_v<decltype(message), const transitions_t&>) {
-      if (const WorldNames* known = names.Of(message.run_id); known != nullptr && message.first_field >= 0) {
-        NameTransitions(message, *known, json["message"]);
-      }
-    }
+    json["message"] = JsonOf(message, NamesFor(message, names));
   });
   if (result != MessageDecoder::Result::kDecoded) {
     if (result == MessageDecoder::Result::kDamaged) {

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Describes the messages of .lcm files for C++ and Java: names, limits and offsets of their fields.
+"""Describes the messages of .lcm files for C++, Java and Python: names, limits and offsets of their fields.
 
     describe_messages.py --cpp HEADER FILE.lcm...
     describe_messages.py --java CLASS_FILE FILE.lcm...
+    describe_messages.py --python MODULE FILE.lcm...
 
 A message that has a channel of its own begins with utime, run_id and config_hash. Its counts come next, then the
 fields of fixed size, then the texts, then the arrays: so that a decoder can check every count and every text
@@ -149,11 +150,23 @@ def java(messages):
     return "\n".join([*lines, "", "  private MessageTypes() {}", "}", ""])
 
 
+def python(messages):
+    with_channel = [message for message in messages if message.has_channel]
+    names = ", ".join(message.name for message in with_channel)
+    lines = ['"""Made by msgs/describe_messages.py from the .lcm files."""', f"from .{messages[0].package} import {names}",
+             "", "# Of every message that has a channel of its own: the type, the encoded bytes before its first text or array,",
+             "# the number of its texts, and the largest allowed value of each count.", "MESSAGE_TYPES = ["]
+    lines += [f"    ({message.name}, {message.fixed_bytes()}, {len(message.texts)}, {message.maxima()}),"
+              for message in with_channel]
+    return "\n".join([*lines, "]", ""])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     language = parser.add_mutually_exclusive_group(required=True)
     language.add_argument("--cpp", type=pathlib.Path, metavar="HEADER")
     language.add_argument("--java", type=pathlib.Path, metavar="CLASS_FILE")
+    language.add_argument("--python", type=pathlib.Path, metavar="MODULE")
     parser.add_argument("files", type=pathlib.Path, nargs="+", metavar="FILE.lcm")
     options = parser.parse_args()
     try:
@@ -162,9 +175,9 @@ def main():
             message.use(messages)
     except ValueError as error:
         sys.exit(f"describe_messages.py: {error}")
-    output = options.cpp or options.java
+    output = options.cpp or options.java or options.python
     output.parent.mkdir(parents=True, exist_ok=True)
-    output.write_text(cpp(messages) if options.cpp else java(messages))
+    output.write_text((cpp if options.cpp else java if options.java else python)(messages))
 
 
 if __name__ == "__main__":

@@ -31,6 +31,7 @@ void RequireSpy();
 
 // Subcommands of `fresco log` that have a file of their own.
 void AddLogRecord(CLI::App& log, Command& command);
+void AddLogExport(CLI::App& log, Command& command);
 void AddLogPlay(CLI::App& log, Command& command);
 
 }  // namespace fresco

@@ -133,6 +133,11 @@ class BadInput(FrescoTest):
             self.refuse(["--stop"], "log", command, log, "--start", 2, "--stop", 1, "--out", out)
         self.refuse(["written over"], "log", "cut", log, "--out", "file")
         self.refuse(["file/table"], "log", "export", log, "--out", "file/table")
+        self.refuse(["file/table.csv"], "log", "export", log, "--out", "file/table.csv")
+        self.refuse(["expected --out FILE"], "log", "export", log, "--format", "mcap")
+        self.refuse(["file/a.mcap"], "log", "export", log, "--format", "mcap", "--out", "file/a.mcap")
+        self.refuse_all([(["none.lcm"], ["none.lcm"]), (["file"], ["at least one whole event"]),
+                         ([log], ["at least one whole event"])], "log", "repair", "--out", "new.lcm")
         self.refuse_all(URLS, "log", "play", log)
         self.refuse(["none.lcm"], "log", "play", "none.lcm")
         self.refuse_all(URLS, "spy")

@@ -59,6 +59,18 @@ class Installation(FrescoTest):
         output, _ = self.run_installed("fresco", "evaluate", "--policy", "run", "--format", "json")
         self.assertEqual(json.loads(output)["total_aoi"], summary["total_aoi"])
 
+    def test_has_the_python_module_that_reads_logs(self):
+        self.run_installed("fresco", "train", "--lcm-url", url(17346), "--out", "run", "--record", "--set",
+                           "schedule.episodes=20", "--set", "run.optimum_limit_s=0")
+        program = """if True:
+            import collections, json, sys
+            sys.path.insert(0, sys.argv[1])
+            import fresco_log
+            print(json.dumps(collections.Counter(event.channel for event in fresco_log.EventLog("run/traffic.lcm"))))"""
+        output, _ = self.run_installed("python3", "-B", "-c", program, self.prefix / "lib/python3/dist-packages")
+        info = json.loads(self.run_installed("fresco", "log", "info", "run/traffic.lcm", "--format", "json")[0])
+        self.assertEqual(json.loads(output), {entry["channel"]: entry["events"] for entry in info["channels"]})
+
     def test_finds_its_ready_experiments_by_name_and_uses_quick_if_none_is_named(self):
         def flown(*arguments):
             return self.run_installed("fresco", "evaluate", "--policy", "aoi", "--format", "json", *arguments)[0]

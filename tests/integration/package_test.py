@@ -86,7 +86,7 @@ class Packages(FrescoTest):
     def test_install_work_and_are_removed_without_a_trace(self):
         self.make_root()
         self.make_packages()
-        self.install("fresco")
+        self.install("fresco", "python3")
         self.check_programs()
         self.check_manual_pages()
         self.check_completion()
@@ -157,8 +157,12 @@ class Packages(FrescoTest):
         self.as_root("systemd-analyze", "verify", "--man=no", "fresco-actor@x.service", "fresco-learner@x.service")
 
     def check_training(self):
-        self.as_user("fresco", "train", "--config", "ci", "--out", "run", "--format", "json")
+        self.as_user("fresco", "train", "--config", "ci", "--out", "run", "--record", "--format", "json")
         self.passed("the main job has run")
+        rows = self.as_user("python3", "-c", """if True:
+            import fresco_log
+            print(sum(1 for row in fresco_log.EventLog("run/traffic.lcm").transitions()))""")
+        self.assertEqual(int(rows) + 1, len(self.as_user("fresco", "log", "export", "run/traffic.lcm").splitlines()))
 
     def check_consumer(self):
         """The example finds the libraries, and the optimum that the program finds; without a library that it needs, the

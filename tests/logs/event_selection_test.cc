@@ -29,6 +29,13 @@ TEST(EventSelection, TakesTimesFromTheFirstEventAndEndsBeforeTheStop) {
   EXPECT_EQ(wanted, "00110");
 }
 
+TEST(EventSelection, KeepsEventsFromBeforeTheFirstOneIfNoStartIsAskedFor) {
+  EventSelection selection({.stop_s = 2});
+  EXPECT_TRUE(selection.Wants({0, 5'000'000, "A", {}}));
+  EXPECT_TRUE(selection.Wants({0, 4'000'000, "A", {}}));
+  EXPECT_FALSE(selection.Wants({0, 7'000'000, "A", {}}));
+}
+
 TEST(EventSelection, DropsOtherRunsOnly) {
   EventSelection selection({.run = "123456789abcdef0"});
   const std::vector<std::byte> foreign(100);

@@ -181,6 +181,43 @@ TEST(ForEachTransitionRow, RefusesNumbersThatContradictOneAnother) {
   EXPECT_TRUE(refuses(message));
 }
 
+TEST(ForEachRow, HasAllFieldsOfAMessageAndItsListsAsJson) {
+  RandomStream stream(2, RandomPurpose::kTest, 5, 0);
+  actor_status_t status = ActorStatusOf(stream, 2, 0, 3);
+  Stamp(status, {0xabc, 7}, 9);
+  status.host = "h\"1";
+  status.held = {chunk_range_t{}, chunk_range_t{}};
+  const auto bytes = Encoded(status);
+  MessageDecoder decoder;
+  std::vector<NamedRow> rows;
+  const auto take = [&](const NamedRow& row) { rows.push_back(row); };
+  EXPECT_EQ(ForEachRow({0, 5, "A", bytes}, decoder, {}, take), MessageDecoder::Result::kDecoded);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(CellIn(rows[0], "run_id"), CsvCell("0000000000000abc"));
+  EXPECT_EQ(CellIn(rows[0], "host"), CsvCell("h\"1"));
+  EXPECT_EQ(CellIn(rows[0], "missing"), CsvCell("[]"));
+  const auto held = nlohmann::json::parse(std::get<std::string>(CellIn(rows[0], "held")));
+  ASSERT_EQ(held.size(), 2u);
+  EXPECT_EQ(held[1]["count"], 0);
+  const run_t run = RunOf(stream, 5);
+  rows.clear();
+  ForEachRow({0, 5, "A", Encoded(run)}, decoder, {}, take);
+  EXPECT_EQ(CellIn(rows.at(0), "part"), CsvCell(std::string(run.part.begin(), run.part.end())));
+}
+
+TEST(ForEachRow, HasNoRowOfWhatIsDamagedContradictsItselfOrIsForeign) {
+  MessageDecoder decoder;
+  const auto result = [&](std::span<const std::byte> bytes) {
+    return ForEachRow({0, 5, "A", bytes}, decoder, {}, [](const NamedRow&) { FAIL(); });
+  };
+  transitions_t message = TwoSteps();
+  message.ending = 3;
+  const auto bytes = Encoded(message);
+  EXPECT_EQ(result(bytes), MessageDecoder::Result::kDamaged);
+  EXPECT_EQ(result(std::span(bytes).first(50)), MessageDecoder::Result::kDamaged);
+  EXPECT_EQ(result({}), MessageDecoder::Result::kForeign);
+}
+
 TEST(EventJson, NamesFieldsAndActionsOnceTheirNamesWereSeen) {
   MessageDecoder decoder;
   WorldNamesByRun names;
