@@ -31,8 +31,7 @@ void TextOutput::Flush() {
 }
 
 void TextOutput::ThrowProblem() const {
-  throw Failure(
-      fmt::format("can't write {}: {}", path_.empty() ? "standard output" : path_, std::strerror(errno)));
+  throw Failure(fmt::format("can't write {}: {}", name(), std::strerror(errno)));
 }
 
 void RowWriter::Write(const NamedRow& row) {
@@ -57,11 +56,11 @@ void RowWriter::WriteCsvRow(const NamedRow& row) {
       std::equal(row.begin(), row.end(), header_.begin(), header_.end(),
                  [](const auto& named, const std::string& name) { return named.first == name; });
   if (!fits) {
-    throw Failure(
-        fmt::format("row {} has other columns than the table: the logs contain runs of different worlds, or "
-                    "states that are too long for one message; export one of the runs (--run ID, see fresco "
-                    "log info) or use --format jsonl",
-                    rows_ + 1));
+    throw Failure(fmt::format(
+        "{}: row {} has other columns than those before: the logs contain runs of different worlds, or "
+        "states that are too long for one message; export one of the runs (--run ID, see fresco "
+        "log info) or use --format jsonl",
+        output_.name(), rows_ + 1));
   }
   std::vector<CsvCell> cells;
   for (const auto& [name, cell] : row) {

@@ -24,6 +24,9 @@ class TextOutput {
   /// Passes all buffered text to the operating system. Throws as Write does.
   void Flush();
 
+  /// The path, or "standard output".
+  std::string name() const { return path_.empty() ? "standard output" : path_; }
+
  private:
   struct Close {
     void operator()(std::FILE* file) const {

@@ -76,9 +76,10 @@ class LogExport(FrescoTest):
         if installed.returncode != 0:
             self.skipTest(f"npm can't install {' '.join(NPM_PACKAGES)}: {installed.stderr.strip()}")
 
-        def export(*arguments):
+        def export(*arguments, log=self.log, channel=".*"):
             out = self.folder / "run.mcap"
-            output, errors = self.run_fresco("log", "export", self.log, "--format", "mcap", "--out", out, *arguments)
+            output, errors = self.run_fresco("log", "export", log, *arguments, "--channel", channel, "--format", "mcap",
+                                             "--out", out)
             self.said = output + errors
             read = subprocess.run(["node", HERE / "read_mcap.mjs", self.folder / "node_modules", out], check=True,
                                   capture_output=True, text=True)
@@ -104,16 +105,27 @@ class LogExport(FrescoTest):
         states = [message["message"]["state"] for message in found["messages"] if message["type"] == "transitions_t"]
         self.assertIn("column", states[0][0])
         # The selection is that of the other commands; the names come from the whole log.
-        selected = export("--channel", "FRESCO_TRANSITIONS", "--stop", 1e6)
+        selected = export("--stop", 1e6, channel="FRESCO_TRANSITIONS")
         self.assertEqual(selected["topics"], ["FRESCO_TRANSITIONS"])
         self.assertEqual([message["message"]["state"] for message in selected["messages"]], states)
+        # Without names, a state is a list. Transitions of another world have a channel of their own.
+        self.run_fresco("log", "cut", self.log, "--drop", "FRESCO_WORLD", "--out", self.folder / "nameless")
+        nameless = export(log=self.folder / "nameless", channel="FRESCO_TRANSITIONS")
+        self.assertEqual([message["message"]["state"] for message in nameless["messages"]],
+                         [[{"value": list(state.values())} for state in message] for message in states])
+        self.train(7838, "other", "--record", "--set", "schedule.episodes=20",
+                   config=ROOT / "configs/cartpole.textproto")
+        both = export(self.folder / "other/traffic.lcm", channel="FRESCO_TRANSITIONS")
+        self.assertEqual(both["topics"], ["FRESCO_TRANSITIONS"] * 2)
+        self.assertEqual({tuple(message["message"]["state"][0]) for message in both["messages"]},
+                         {tuple(states[0][0]), ("position", "velocity", "angle", "angular_velocity")})
         # A long log has several chunks; without messages there is none.
         with open(self.log, "ab") as log:
             log.write(4 * self.log.read_bytes())
         longer = export()
         self.assertGreater(longer["chunks"], 1)
         self.assertEqual(longer["statistics"], 5 * len(self.sound))
-        empty = export("--channel", "NONE")
+        empty = export(channel="NONE")
         self.assertEqual((empty["statistics"], empty["streamed"], empty["done"], empty["messages"]), (0, 0, True, []))
         _, errors = self.run_fresco("log", "export", self.log, "--format", "mcap", expect=2)
         self.assertIn("expected --out FILE", errors)

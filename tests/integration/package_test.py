@@ -146,7 +146,7 @@ class Packages(FrescoTest):
             return self.as_user("bash", "-c", script, "bash", *words).split()
         top = [command[0] for command in self.commands() if len(command) == 1]
         self.assertEqual(offers("fresco", ""), ["--help", "--version", *top, "bench"])
-        self.assertEqual(offers("fresco", "log", "re"), ["record"])
+        self.assertEqual(offers("fresco", "log", "re"), ["record", "repair"])
         self.assertEqual(offers("fresco", "train", "--reco"), ["--record", "--record-split-mb"])
         self.assertEqual(offers("fresco", "train", "--config", ""), READY_EXPERIMENTS.split(", "))
         self.assertEqual(offers("fresco", "train", "--format", "=", "j"), ["json"])

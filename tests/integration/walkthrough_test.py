@@ -49,7 +49,8 @@ class Walkthrough(unittest.TestCase):
         script = next(block for block in blocks(ROOT / "README.md", "") if "evaluate --policy runs/NAME" in block)
         output = self.run_script("tools/fresco train --config ci --out runs/NAME\n" + script,
                                  ("--config cartpole --seed 2", "--config cartpole --seed 2 --set schedule.episodes=20 --out other"),
-                                 ("tools/fresco watch ", ": "), ("tools/fresco spy ", ": "))  # watch_test, spy_test
+                                 # These have tests of their own: resume_test, watch_test, spy_test.
+                                 *((f"tools/fresco {command}", ": ") for command in ("train --resume", "watch ", "spy ")))
         self.assertIn("arrived; average AoI", output)
         self.assertRegex(output, r"(?m)^NAME +14\.576 ")
         self.assertIn("Training works on this machine.", output)
