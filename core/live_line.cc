@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "core/clock.h"
@@ -17,6 +19,12 @@ winsize TerminalSize() {
   winsize size{};
   const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0;
   return known ? size : winsize{.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
+}
+
+/// Whether standard error is a terminal in which lines can be rewritten.
+bool IsTerminal() {
+  const char* kind = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
 }
 
 /// The text's lines, as many and as much of them as the terminal can show.
@@ -32,7 +40,21 @@ std::vector<std::string> VisibleLines(const std::string& text) {
 
 }  // namespace
 
-LiveLine::LiveLine(bool enabled) : enabled_(enabled), terminal_(isatty(STDERR_FILENO) == 1) {}
+std::string TimeLeft::Report(double done, double all, int64_t now_us) {
+  constexpr double kLeastPassedS = 1;
+  if (!first_) {
+    first_ = {done, now_us};
+  }
+  const double passed_s = 1e-6 * static_cast<double>(now_us - first_->at_us);
+  if (!(done > first_->done && done < all && passed_s > kLeastPassedS)) {
+    return "";
+  }
+  const double seconds = passed_s / (done - first_->done) * (all - done);
+  return seconds < 90 ? fmt::format("about {:.0f} s left", seconds)
+                      : fmt::format("about {:.0f} min left", seconds / 60);
+}
+
+LiveLine::LiveLine(bool enabled) : enabled_(enabled), terminal_(IsTerminal()) {}
 
 LiveLine::~LiveLine() {
   Finish();

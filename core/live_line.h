@@ -4,9 +4,25 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace fresco {
+
+/// How long work goes on if it stays as fast as since its first report.
+class TimeLeft {
+ public:
+  /// Reports that `done` of `all` parts are done, by the monotonic clock. Returns "about 30 s left"; "" while
+  /// it can't be known, and at the end.
+  std::string Report(double done, double all, int64_t now_us);
+
+ private:
+  struct Progress {
+    double done;
+    int64_t at_us;
+  };
+  std::optional<Progress> first_;
+};
 
 class LiveLine {
  public:

@@ -48,12 +48,12 @@ double SecondsSince(int64_t begin_us) {
   return 1e-6 * static_cast<double>(MonotonicMicroseconds() - begin_us);
 }
 
-std::string ProgressText(const Trainer& trainer, int64_t episodes, double wall_s) {
+std::string ProgressText(const Trainer& trainer, int64_t episodes, double wall_s, const std::string& left) {
   const TrainerProgress& progress = trainer.progress();
   const auto& best = trainer.best();
-  return fmt::format("episode {}/{}  updates {}  best score {}  {:.0f} updates/s", progress.episodes,
+  return fmt::format("episode {}/{}  updates {}  best score {}  {:.0f} updates/s  {}", progress.episodes,
                      episodes, progress.updates, best ? fmt::format("{:.2f}", best->evaluation.score()) : "-",
-                     static_cast<double>(progress.updates) / wall_s);
+                     static_cast<double>(progress.updates) / wall_s, left);
 }
 
 void WaitForEnd(OptimumSearch& optimum, LiveLine& line) {
@@ -169,9 +169,15 @@ std::string RetrainRun::Train(const std::filesystem::path& directory) {
       experiment_.world(), EpisodesToPlan(experiment_),
       {experiment_.run().optimum_limit_s(), int64_t{experiment_.run().optimum_memory_mb()} * 1'000'000});
   LiveLine line(true);
+  TimeLeft time_left;
   while (!StopSignal::Requested() && retraining_->Step()) {
-    line.Show(
-        ProgressText(retraining_->trainer(), experiment_.schedule().episodes(), SecondsSince(begin_us_)));
+    if (line.IsDue()) {
+      const int64_t episodes = experiment_.schedule().episodes();
+      const Trainer& trainer = retraining_->trainer();
+      line.Show(ProgressText(trainer, episodes, SecondsSince(begin_us_),
+                             time_left.Report(static_cast<double>(trainer.progress().episodes),
+                                              static_cast<double>(episodes), MonotonicMicroseconds())));
+    }
   }
   const double wall_s = SecondsSince(begin_us_);
   completed_ = retraining_->trainer().finished();

@@ -187,13 +187,10 @@ class Study {
         going_on += fmt::format(" | {} {}", jobs_[running->job].name, Progress(*running));
       }
     }
-    const double passed_s = static_cast<double>(MonotonicMicroseconds() - begin_us_) * 1e-6;
     const std::string left =
-        runs_done > 0.2 ? fmt::format(", about {:.0f} min left",
-                                      passed_s / runs_done * (static_cast<double>(to_run_) - runs_done) / 60)
-                        : "";
-    line_.Show(fmt::format("{} of {} runs complete{}{}", jobs_.size() - to_run_ + done_, jobs_.size(), left,
-                           going_on));
+        time_left_.Report(runs_done, static_cast<double>(to_run_), MonotonicMicroseconds());
+    line_.Show(fmt::format("{} of {} runs complete{}{}", jobs_.size() - to_run_ + done_, jobs_.size(),
+                           left.empty() ? "" : " | " + left, going_on));
   }
 
   const std::vector<StudyJob>& jobs_;
@@ -203,7 +200,7 @@ class Study {
   std::vector<std::optional<Running>> running_;  // by lane
   size_t to_run_ = 0;
   size_t done_ = 0;
-  int64_t begin_us_ = MonotonicMicroseconds();
+  TimeLeft time_left_;
   LiveLine line_;
 };
 

@@ -77,17 +77,6 @@ std::string ReferenceScores(const std::string& configuration) {
   return text;
 }
 
-/// How long the rest of a training takes if it goes on as since the beginning: "about 3 min left".
-std::string TimeLeft(int64_t passed_us, int64_t done, int64_t left) {
-  if (done <= 0 || left <= 0) {
-    return "";
-  }
-  const double seconds =
-      1e-6 * static_cast<double>(passed_us) * static_cast<double>(left) / static_cast<double>(done);
-  return seconds < 90 ? fmt::format("about {:.0f} s left", seconds)
-                      : fmt::format("about {:.0f} min left", seconds / 60);
-}
-
 /// The parts of a text "a | b | c" as lines of a terminal of 80 columns, each indented.
 std::string Wrapped(const std::string& text) {
   constexpr size_t kColumns = 78;
@@ -122,9 +111,10 @@ std::vector<std::string> RunWatch::NeededChannels() const {
 
 void RunWatch::AddStatus(const learner_status_t& status, int64_t now_us, WatchedRun& run) {
   if (!run.learner) {
-    run.begin_us = now_us;
-    run.begin_episodes = status.episodes;
+    run.time_left_estimate = {};
   }
+  run.time_left = run.time_left_estimate.Report(static_cast<double>(status.episodes),
+                                                static_cast<double>(status.total_episodes), now_us);
   const bool evaluated = std::isfinite(status.score) && std::isfinite(status.best_score) &&
                          (run.evaluations.empty() || run.evaluations.back().score != status.score);
   if (evaluated) {
@@ -215,9 +205,7 @@ std::string RunWatch::TextOf(int64_t run_id, const WatchedRun& run, double secon
     const learner_status_t& learner = *run.learner;
     const double share = static_cast<double>(learner.episodes) /
                          static_cast<double>(std::max<int64_t>(learner.total_episodes, 1));
-    text += fmt::format("  {} {}\n", ProgressBar(share),
-                        TimeLeft(run.heard_us - run.begin_us, learner.episodes - run.begin_episodes,
-                                 learner.total_episodes - learner.episodes));
+    text += fmt::format("  {} {}\n", ProgressBar(share), run.time_left);
     const double silent_s = 1e-6 * static_cast<double>(now_us - run.heard_us);
     std::string progress = ProgressLine(learner, DescriptionOf(names));
     if (silent_s >= 1) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "core/live_line.h"
 #include "msgs/channels.h"
 #include "msgs/message_decoder.h"
 #include "msgs/run_announcements.h"
@@ -45,8 +46,8 @@ class RunWatch {
   struct WatchedRun {
     std::optional<learner_status_t> learner;
     int64_t heard_us = 0;  // the learner
-    int64_t begin_us = 0;  // when it was heard first
-    int64_t begin_episodes = 0;
+    TimeLeft time_left_estimate;
+    std::string time_left;
     RunAnnouncements announcements;
     bool announced = false;  // all parts have come
     std::string references;  // the scores of the world's reference policies, as text

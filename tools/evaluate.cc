@@ -9,6 +9,7 @@
 
 #include "core/clock.h"
 #include "core/help_formatter.h"
+#include "core/live_line.h"
 #include "core/signals.h"
 #include "report/result_display.h"
 #include "storage/judgement.h"
@@ -77,8 +78,15 @@ FlownEpisodes FlyEpisodes(const EvaluateOptions& options, const ChosenPolicy& ch
   FlownEpisodes episodes;
   episodes.seeds = SeedsToFly(options, chosen.experiment.schedule());
   episodes.plans = PlansOfRun(options.choice, chosen, episodes.seeds);
+  LiveLine line(episodes.seeds.size() > 1);
+  TimeLeft time_left;
   for (size_t i = 0; i < episodes.seeds.size() && !StopSignal::Requested(); ++i) {
     const int64_t begin_us = MonotonicMicroseconds();
+    const std::string left =
+        time_left.Report(static_cast<double>(i), static_cast<double>(episodes.seeds.size()), begin_us);
+    if (!left.empty()) {
+      line.Show(fmt::format("{} of {} episodes | {}", i, episodes.seeds.size(), left));
+    }
     const FlownPolicy flown = FlyPolicy(options.choice, chosen, episodes.seeds[i]);
     episodes.seconds += 1e-6 * static_cast<double>(MonotonicMicroseconds() - begin_us);
     episodes.steps += flown.episode.transitions();

@@ -63,6 +63,7 @@ int MindRun(TrainingRun& run, const Experiment& experiment) {
   constexpr int64_t kPollUs = 50'000;
   constexpr double kSilentS = 3;
   LiveLine line(true);
+  TimeLeft time_left;
   const auto view =
       std::make_shared<RunWatch>(ChannelsWithPrefix(experiment.run().channel_prefix()), run.run_id());
   if (line.on_terminal()) {
@@ -77,8 +78,13 @@ int MindRun(TrainingRun& run, const Experiment& experiment) {
     if (run.SilentSeconds() > kSilentS) {
       line.Show(fmt::format("no status from the learner for {:.0f} s", run.SilentSeconds()));
     } else if (run.status() && line.IsDue()) {
-      line.Show(line.on_terminal() ? view->Text(MonotonicMicroseconds())
-                                   : ProgressLine(*run.status(), experiment.world().description()));
+      const learner_status_t& status = *run.status();
+      const int64_t now_us = MonotonicMicroseconds();
+      const std::string left = time_left.Report(static_cast<double>(status.episodes),
+                                                static_cast<double>(status.total_episodes), now_us);
+      line.Show(line.on_terminal() ? view->Text(now_us)
+                                   : ProgressLine(status, experiment.world().description()) +
+                                         (left.empty() ? "" : " | " + left));
     }
   }
   return run.End();
