@@ -83,11 +83,13 @@ void Actor::HandleProbe(const probe_t& probe) {
   if (probe.run_id == 0 || probe.actor_id != 0) {
     return;
   }
-  if (probe.run_id != probe_series_) {
-    probe_series_ = probe.run_id;
-    probes_ = 0;
+  auto series = std::find_if(probes_.begin(), probes_.end(),
+                             [&](const ProbeSeries& known) { return known.run_id == probe.run_id; });
+  if (series == probes_.end()) {
+    series = probes_.begin() + static_cast<ptrdiff_t>(next_probes_++ % probes_.size());
+    *series = {probe.run_id, 0};
   }
-  ++probes_;
+  ++series->received;
   if (const int64_t second = now_us_ / 1'000'000; second != echo_second_) {
     echo_second_ = second;
     echoes_ = 0;
@@ -99,7 +101,7 @@ void Actor::HandleProbe(const probe_t& probe) {
   echo.actor_id = options_.actor_id;
   echo.host = options_.host.substr(0, probe_t::MAXIMUM_HOST_BYTES);
   echo.pid = options_.pid;
-  echo.received = probes_;
+  echo.received = series->received;
   bus_.Publish(channels_.echo, std::move(echo), {probe.run_id, 0});
 }
 

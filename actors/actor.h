@@ -2,6 +2,7 @@
 // When a run is over, it serves the next one. Everything happens on the one thread that calls Step.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -108,11 +109,15 @@ class Actor {
   int64_t next_sequence_ = 0;  // of the statuses
   int64_t next_status_us_ = 0;
   int64_t next_request_us_ = 0;
-  RateMeter rate_;            // of the transitions
-  int64_t probe_series_ = 0;  // run_id of the last probe
-  int32_t probes_ = 0;        // received of this series
-  int64_t echo_second_ = 0;   // of the last answer to a probe
-  int echoes_ = 0;            // sent in this second
+  RateMeter rate_;  // of the transitions
+  struct ProbeSeries {
+    int64_t run_id = 0;
+    int32_t received = 0;
+  };
+  std::array<ProbeSeries, 8> probes_;  // of the doctors that asked last
+  size_t next_probes_ = 0;             // for the next doctor
+  int64_t echo_second_ = 0;            // of the last answer to a probe
+  int echoes_ = 0;                     // sent in this second
 };
 
 }  // namespace fresco

@@ -76,7 +76,8 @@ LcmUrl ParseUdpm(const std::string& url, const std::string& address, const std::
     }
   }
   return {fmt::format("udpm://{}:{}?recv_buf_size={}&ttl={}", group, port, receive_buffer_bytes, ttl),
-          MulticastEndpoint{group, static_cast<uint16_t>(port), static_cast<int>(receive_buffer_bytes)}};
+          MulticastEndpoint{group, static_cast<uint16_t>(port), static_cast<int>(receive_buffer_bytes),
+                            static_cast<int>(ttl)}};
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct MulticastEndpoint {
   std::string group;  ///< IPv4 address of the multicast group
   uint16_t port = 0;
   int receive_buffer_bytes = 0;
+  int ttl = 0;  ///< routers that a packet may cross, plus one; 0: it stays on this machine
 };
 
 struct LcmUrl {

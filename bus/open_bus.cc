@@ -5,10 +5,11 @@
 
 namespace fresco {
 
-void AddKeyFileOption(CLI::App& app, KeyFile& key_file) {
-  app.add_option_function<std::string>(
-         "--key-file", [&key_file](const std::string& file) { key_file = file; },
-         "File with the run's key: accept only messages that are authenticated with it")
+CLI::Option* AddKeyFileOption(CLI::App& app, KeyFile& key_file) {
+  return app
+      .add_option_function<std::string>(
+          "--key-file", [&key_file](const std::string& file) { key_file = file; },
+          "File with the run's key: accept only messages that are authenticated with it")
       ->type_name("FILE");
 }
 

@@ -13,7 +13,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace fresco {
 
@@ -23,8 +24,8 @@ struct BusOptions {
                                                 ///< runs
 };
 
-/// Adds --key-file, whose value parsing writes to `key_file`.
-void AddKeyFileOption(CLI::App& app, KeyFile& key_file);
+/// Adds --key-file, whose value parsing writes to `key_file`. Returns the option.
+CLI::Option* AddKeyFileOption(CLI::App& app, KeyFile& key_file);
 
 /// Adds --key-file and --disturb, whose values parsing writes to `options`.
 void AddBusOptions(CLI::App& app, BusOptions& options);

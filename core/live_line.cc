@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/clock.h"
+#include "core/utf8.h"
 
 namespace fresco {
 namespace {
@@ -21,10 +22,12 @@ winsize TerminalSize() {
   return known ? size : winsize{.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
 }
 
-/// Whether standard error is a terminal in which lines can be rewritten.
-bool IsTerminal() {
+/// Whether standard error is a terminal whose lines can be rewritten. It must belong to this process: what a
+/// process in the background erases may be another's.
+bool CanRewrite() {
   const char* kind = std::getenv("TERM");
-  return isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+  return isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb" &&
+         tcgetpgrp(STDERR_FILENO) == getpgrp();
 }
 
 /// The text's lines, as many and as much of them as the terminal can show.
@@ -33,7 +36,7 @@ std::vector<std::string> VisibleLines(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; lines.size() + 1 < size.ws_row && std::getline(stream, line);) {
-    lines.push_back(line.substr(0, size.ws_col - 1U));
+    lines.push_back(std::string(FirstCharacters(line, size.ws_col - 1U)));
   }
   return lines;
 }
@@ -54,7 +57,11 @@ std::string TimeLeft::Report(double done, double all, int64_t now_us) {
                       : fmt::format("about {:.0f} min left", seconds / 60);
 }
 
-LiveLine::LiveLine(bool enabled) : enabled_(enabled), terminal_(IsTerminal()) {}
+LiveLine::LiveLine(bool enabled) : enabled_(enabled) {}
+
+bool LiveLine::on_terminal() const {
+  return CanRewrite();
+}
 
 LiveLine::~LiveLine() {
   Finish();
@@ -70,13 +77,15 @@ void LiveLine::Show(const std::string& text) {
   if (!IsDue()) {
     return;
   }
-  next_us_ = MonotonicMicroseconds() + (terminal_ ? kTerminalPeriodUs : kPlainPeriodUs);
-  if (terminal_) {
+  const bool rewrites = on_terminal();
+  next_us_ = MonotonicMicroseconds() + (rewrites ? kTerminalPeriodUs : kPlainPeriodUs);
+  if (rewrites) {
     const std::vector<std::string> lines = VisibleLines(text);
     const std::string to_first_line = open_lines_ > 1 ? fmt::format("\x1b[{}A", open_lines_ - 1) : "";
     fmt::print(stderr, "{}\r\x1b[J{}", to_first_line, fmt::join(lines, "\n"));
     open_lines_ = lines.size();
   } else {
+    Finish();
     fmt::print(stderr, "{}\n", text);
   }
   std::fflush(stderr);

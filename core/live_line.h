@@ -32,7 +32,8 @@ class LiveLine {
   LiveLine(const LiveLine&) = delete;
   LiveLine& operator=(const LiveLine&) = delete;
 
-  bool on_terminal() const { return terminal_; }
+  /// Whether texts are rewritten in place at present: a process may go to the background and come back.
+  bool on_terminal() const;
   /// Whether Show would show a text now, or leave it out since it comes too soon after another.
   bool IsDue() const;
   /// Shows the text, without a line end at its end. On a terminal, lines are cut to its width, and those that
@@ -43,7 +44,6 @@ class LiveLine {
 
  private:
   bool enabled_;
-  bool terminal_;
   size_t open_lines_ = 0;  // of the text that the next one replaces
   int64_t next_us_ = 0;
 };

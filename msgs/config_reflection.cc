@@ -281,7 +281,6 @@ void SetField(Message& message, const std::string& path, const std::string& valu
 }
 
 std::map<std::string, std::string> FieldValues(const Message& message) {
-  constexpr size_t kLongestValue = 60;
   std::map<std::string, std::string> values;
   const Reflection& reflection = *message.GetReflection();
   std::vector<const FieldDescriptor*> fields;
@@ -306,11 +305,6 @@ std::map<std::string, std::string> FieldValues(const Message& message) {
         std::string& value = values[field->name()];
         value += (value.empty() ? "" : ",") + text;
       }
-    }
-  }
-  for (auto& [path, value] : values) {
-    if (value.size() > kLongestValue) {
-      value = value.substr(0, kLongestValue) + "...";
     }
   }
   return values;

@@ -30,7 +30,7 @@ void CheckRanges(const google::protobuf::Message& message, const std::string& or
 void SetField(google::protobuf::Message& message, const std::string& path, const std::string& value);
 
 /// The values of all fields that are set, in text format, by path: {"agent.hidden_layers", "256,256"}. The
-/// paths are those of SetField. Long texts are cut.
+/// paths are those of SetField.
 std::map<std::string, std::string> FieldValues(const google::protobuf::Message& message);
 
 }  // namespace fresco

@@ -13,6 +13,7 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/utf8.h"
 
 namespace fresco {
 namespace {
@@ -40,28 +41,6 @@ class MemoryFile {
 
   int descriptor_;
 };
-
-/// Returns the length of the UTF-8 sequence at the beginning of `text`; 0 if it is not valid or XML does not
-/// allow it.
-size_t Utf8Length(std::string_view text) {
-  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const size_t length = byte(0) < 0x80                      ? 1
-                        : byte(0) >= 0xC2 && byte(0) < 0xE0 ? 2
-                        : byte(0) >= 0xE0 && byte(0) < 0xF0 ? 3
-                        : byte(0) >= 0xF0 && byte(0) < 0xF5 ? 4
-                                                            : 0;
-  for (size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) {
-      return 0;
-    }
-  }
-  const unsigned first_two = byte(0) << 8 | byte(1);
-  const bool overlong = length > 2 && (first_two < 0xE0A0 || (first_two >= 0xF080 && first_two < 0xF090));
-  const bool surrogate = length == 3 && first_two >= 0xEDA0 && first_two < 0xEE00;
-  const bool beyond = length == 4 && first_two >= 0xF490;
-  const bool not_a_character = length == 3 && first_two == 0xEFBF && byte(2) >= 0xBE;  // U+FFFE, U+FFFF
-  return overlong || surrogate || beyond || not_a_character ? 0 : length;
-}
 
 /// Returns the character escaped. A backquote becomes "\\140", since it would run a command even after a
 /// backslash.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "core/utf8.h"
 #include "report/report_html.h"
 #include "storage/optimum_search.h"
 #include "storage/policy.h"
@@ -142,25 +143,19 @@ std::string ValueText(const AccountValue& value) {
   return std::visit(ValueTexts{}, value);
 }
 
-/// The number of characters of a text in UTF-8.
-size_t Characters(const std::string& text) {
-  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;  // bytes that begin a character
-  }));
-}
-
 /// The rows as lines that begin with `indent`, with columns of at least the given widths.
 std::string AlignedTable(const std::vector<TableRow>& rows, std::vector<size_t> widths,
                          const std::vector<bool>& at_right, const std::string& indent) {
   for (const TableRow& row : rows) {
     for (size_t i = 0; i < row.size(); ++i) {
-      widths[i] = std::max(widths[i], Characters(row[i]));
+      widths[i] = std::max(widths[i], CharacterCount(row[i]));
     }
   }
   std::string table;
   for (const TableRow& row : rows) {
     for (size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(i + 1 < row.size() || at_right[i] ? widths[i] - Characters(row[i]) : 0, ' ');
+      const std::string padding(i + 1 < row.size() || at_right[i] ? widths[i] - CharacterCount(row[i]) : 0,
+                                ' ');
       table += (i == 0 ? indent : "  ") + (at_right[i] ? padding + row[i] : row[i] + padding);
     }
     table += "\n";

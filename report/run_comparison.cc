@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/utf8.h"
 #include "msgs/config_reflection.h"
 #include "report/drawings.h"
 #include "report/mean_estimate.h"
@@ -23,30 +24,44 @@ using Path = std::filesystem::path;
 constexpr char kSeedField[] = "schedule.seed";
 constexpr char kNoValue[] = "-";
 
-/// Numbers of a run's summary.
-struct RunResult {
-  std::optional<double> score;
-  std::optional<double> gap_percent;
-  std::optional<double> success;
-  int64_t updates = 0;
-  double wall_s = 0;
-  std::string weights_crc32c;
-  bool completed = true;
-};
+using OrderedJson = nlohmann::ordered_json;
 
-RunResult ResultIn(const std::string& summary_json) {
-  const auto summary = nlohmann::json::parse(summary_json);
-  const auto number = [&](const char* name) -> std::optional<double> {
-    const auto value = summary.value(name, nlohmann::json());
-    return value.is_null() ? std::nullopt : std::optional(value.get<double>());
-  };
-  return {number("score"),      number("gap_percent"),        number("success"),      summary.at("updates"),
-          summary.at("wall_s"), summary.at("weights_crc32c"), summary.at("completed")};
+RunResult ResultOf(const FinishedRun& run, const Path& folder) {
+  try {
+    const auto summary = nlohmann::json::parse(run.summary());
+    const auto number = [&](const char* name) -> std::optional<double> {
+      const auto value = summary.value(name, nlohmann::json());
+      return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+    };
+    return {number("score"),      number("gap_percent"),        number("success"),      summary.at("updates"),
+            summary.at("wall_s"), summary.at("weights_crc32c"), summary.at("completed")};
+  } catch (const nlohmann::json::exception& error) {
+    throw UsageError(fmt::format("{}: expected the summary of a run as the learner writes it; {}",
+                                 (folder / "summary.json").string(), error.what()));
+  }
 }
 
 std::string ScoreLabel(const WorldDescription& world) {
   const Quantity& figure = world.figures.front();
   return Title(figure.name) + (figure.unit.empty() ? "" : " [" + figure.unit + "]");
+}
+
+/// The numbers of these runs; empty unless each has one, since means over different runs can't be compared.
+std::vector<double> Sample(const std::vector<const ComparedRun*>& runs,
+                           std::optional<double> RunResult::*number) {
+  std::vector<double> sample;
+  for (const ComparedRun* compared : runs) {
+    if (const std::optional<double> value = compared->result.*number) {
+      sample.push_back(*value);
+    }
+  }
+  return sample.size() == runs.size() ? sample : std::vector<double>();
+}
+
+/// A long text is cut.
+std::string CellText(const std::string& value) {
+  constexpr size_t kLongest = 60;
+  return CharacterCount(value) > kLongest ? std::string(FirstCharacters(value, kLongest)) + "..." : value;
 }
 
 std::string EstimateText(const std::vector<double>& sample, const std::string& unit) {
@@ -74,23 +89,6 @@ std::vector<std::string> NamesOf(const std::vector<Path>& folders) {
 
 }  // namespace
 
-RunComparison::RunComparison(const std::vector<Path>& folders) {
-  FRESCO_CHECK(!folders.empty());
-  const std::vector<std::string> names = NamesOf(folders);
-  for (size_t i = 0; i < folders.size(); ++i) {
-    auto run = std::make_unique<FinishedRun>(folders[i]);
-    auto settings = FieldValues(run->experiment().config());
-    runs_.push_back({names[i], std::move(run), std::move(settings)});
-    const std::string expected = ScoreLabel(world());
-    const std::string found = ScoreLabel(runs_.back().run->world().description());
-    if (found != expected) {
-      throw UsageError(fmt::format(
-          "expected runs that are judged by the same figure; {} is judged by its {}, but {} by its {}",
-          folders.front().string(), expected, folders[i].string(), found));
-    }
-  }
-}
-
 bool RunComparison::OneWorld() const {
   return std::all_of(runs_.begin(), runs_.end(), [&](const ComparedRun& compared) {
     return compared.run->experiment().WorldText() == runs_.front().run->experiment().WorldText();
@@ -115,26 +113,33 @@ std::vector<std::string> RunComparison::DifferentFields() const {
   return {paths.begin(), paths.end()};
 }
 
-std::vector<std::vector<size_t>> RunComparison::SeedGroups() const {
-  std::map<std::map<std::string, std::string>, std::vector<size_t>> groups;
-  for (size_t i = 0; i < runs_.size(); ++i) {
-    std::map<std::string, std::string> settings = runs_[i].settings;
-    settings.erase(kSeedField);
+std::vector<std::vector<const ComparedRun*>> RunComparison::SeedGroups() const {
+  using FieldMap = std::map<std::string, std::string>;
+  std::map<FieldMap, std::map<std::string, const ComparedRun*>> groups;  // by settings, then by seed
+  std::vector<FieldMap> order;
+  for (const ComparedRun& compared : runs_) {
+    const RunResult& result = compared.result;
+    if (!result.completed || !result.score || !(result.success > 0)) {
+      continue;
+    }
+    FieldMap settings = compared.settings;
+    const std::string seed = settings.extract(kSeedField).mapped();
     // Actors, addresses and limits do not decide the weights.
     std::erase_if(settings, [](const auto& setting) { return setting.first.starts_with("run."); });
-    groups[settings].push_back(i);
-  }
-  std::vector<std::vector<size_t>> several;
-  for (const auto& [settings, members] : groups) {
-    std::set<std::string> seeds;
-    for (const size_t i : members) {
-      seeds.insert(runs_[i].settings.at(kSeedField));
+    if (!groups.contains(settings)) {
+      order.push_back(settings);
     }
-    if (members.size() > 1 && seeds.size() == members.size()) {
-      several.push_back(members);
+    groups[settings].emplace(seed, &compared);
+  }
+  std::vector<std::vector<const ComparedRun*>> several;
+  for (const FieldMap& settings : order) {
+    if (groups[settings].size() > 1) {
+      several.emplace_back();
+      for (const auto& [seed, compared] : groups[settings]) {
+        several.back().push_back(compared);
+      }
     }
   }
-  std::sort(several.begin(), several.end());
   return several;
 }
 
@@ -143,11 +148,12 @@ ReportTable RunComparison::ResultTable() const {
                     {"run", ScoreLabel(world()), "gap", Title(world().success), "updates", "time", "weights"},
                     {}};
   for (const ComparedRun& compared : runs_) {
-    const RunResult result = ResultIn(compared.run->summary());
+    const RunResult& result = compared.result;
     table.rows.push_back({compared.name, result.score ? fmt::format("{:.3f}", *result.score) : kNoValue,
                           result.gap_percent ? fmt::format("{:.2f} %", *result.gap_percent) : kNoValue,
                           result.success ? PercentText(*result.success) : kNoValue,
-                          std::to_string(result.updates), fmt::format("{:.{}f} s", result.wall_s, result.wall_s < 10 ? 1 : 0),
+                          std::to_string(result.updates),
+                          fmt::format("{:.{}f} s", result.wall_s, result.wall_s < 10 ? 1 : 0),
                           result.weights_crc32c + (result.completed ? "" : " (interrupted)")});
   }
   return table;
@@ -157,22 +163,14 @@ ReportTable RunComparison::SeedTable() const {
   ReportTable table{"Means, with half of their 95 % intervals",
                     {"runs that differ in the seed alone", "seeds", ScoreLabel(world()), "gap"},
                     {}};
-  for (const std::vector<size_t>& members : SeedGroups()) {
+  for (const std::vector<const ComparedRun*>& members : SeedGroups()) {
     std::vector<std::string> names;
-    std::vector<double> scores;
-    std::vector<double> gaps;
-    for (const size_t i : members) {
-      const RunResult result = ResultIn(runs_[i].run->summary());
-      names.push_back(runs_[i].name);
-      if (result.score) {
-        scores.push_back(*result.score);
-      }
-      if (result.gap_percent) {
-        gaps.push_back(*result.gap_percent);
-      }
+    for (const ComparedRun* compared : members) {
+      names.push_back(compared->name);
     }
     table.rows.push_back({fmt::format("{}", fmt::join(names, ", ")), std::to_string(members.size()),
-                          EstimateText(scores, ""), EstimateText(gaps, " %")});
+                          EstimateText(Sample(members, &RunResult::score), ""),
+                          EstimateText(Sample(members, &RunResult::gap_percent), " %")});
   }
   return table;
 }
@@ -186,7 +184,7 @@ ReportTable RunComparison::SettingTable() const {
     table.rows.push_back({path});
     for (const ComparedRun& compared : runs_) {
       const auto found = compared.settings.find(path);
-      table.rows.back().push_back(found == compared.settings.end() ? kNoValue : found->second);
+      table.rows.back().push_back(found == compared.settings.end() ? kNoValue : CellText(found->second));
     }
   }
   return table;
@@ -207,8 +205,7 @@ std::string RunComparison::Text() const {
 }
 
 std::string RunComparison::Json() const {
-  using OrderedJson = nlohmann::ordered_json;
-  OrderedJson json;
+  OrderedJson json = {{"world", world_name()}};
   for (const ComparedRun& compared : runs_) {
     OrderedJson run = OrderedJson::parse(compared.run->summary());
     run.erase("judged_episodes");
@@ -218,20 +215,14 @@ std::string RunComparison::Json() const {
     json["runs"].push_back(named);
   }
   json["seeds"] = OrderedJson::array();
-  for (const std::vector<size_t>& members : SeedGroups()) {
+  for (const std::vector<const ComparedRun*>& members : SeedGroups()) {
     OrderedJson group;
-    std::vector<double> scores;
-    for (const size_t i : members) {
-      group["runs"].push_back(runs_[i].name);
-      if (const auto score = ResultIn(runs_[i].run->summary()).score) {
-        scores.push_back(*score);
-      }
+    for (const ComparedRun* compared : members) {
+      group["runs"].push_back(compared->name);
     }
-    if (!scores.empty()) {
-      const MeanEstimate estimate = EstimateMean(scores);
-      group["score"] = estimate.mean;
-      group["score_half_width"] = estimate.half_width ? OrderedJson(*estimate.half_width) : OrderedJson();
-    }
+    const MeanEstimate estimate = EstimateMean(Sample(members, &RunResult::score));
+    group["score"] = estimate.mean;
+    group["score_half_width"] = estimate.half_width.value();
     json["seeds"].push_back(group);
   }
   json["settings"] = OrderedJson::object();
@@ -242,41 +233,99 @@ std::string RunComparison::Json() const {
                                                                         : OrderedJson(found->second));
     }
   }
-  return json.dump(2);
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 LinePlot RunComparison::CurvesPlot() const {
   std::vector<LearningCurve> curves;
   for (const ComparedRun& compared : runs_) {
-    if (!compared.run->learning_curve().points.empty()) {
-      curves.push_back(compared.run->learning_curve());
-      curves.back().title = compared.name;
-    }
+    curves.push_back(compared.run->learning_curve());
+    curves.back().title = compared.name;
   }
-  return curves.empty() ? LinePlot() : BestSoFarPlot(curves, OneWorld());
+  return BestSoFarPlot(curves);
 }
 
-void RunComparison::WritePage(const Path& file) const {
-  ReportContents contents;
-  contents.title = fmt::format("Fresco: {} runs compared", runs_.size());
-  contents.tables = Tables();
-  if (const LinePlot plot = CurvesPlot(); !plot.curves.empty()) {
+std::vector<ReportEpisode> RunComparison::Episodes() const {
+  std::vector<ReportEpisode> episodes;
+  const std::optional<uint64_t> seed = runs_.front().run->ShownSeed();
+  if (!seed || !OneWorld() || DrawingOf(first_world()) == nullptr) {
+    return episodes;
+  }
+  for (const ComparedRun& compared : runs_) {
     try {
-      contents.figures.push_back(
-          {"Learning curves", "The best evaluation so far of each run.", SvgText(DrawLinePlot(plot))});
+      if (std::optional<Episode> episode = compared.run->FlyBest(*seed)) {
+        episodes.push_back({compared.name, *std::move(episode)});
+      }
     } catch (const Error& error) {
-      spdlog::warn("{} has no learning curves: {}", file.string(), error.what());
+      spdlog::warn("the page has no flight of {}: {}", compared.name, error.what());
     }
   }
-  if (OneWorld() && DrawingOf(runs_.front().run->world()) != nullptr) {
-    contents.world = &runs_.front().run->world();
-    for (const ComparedRun& compared : runs_) {
-      if (std::optional<Episode> episode = compared.run->FlyBest()) {
-        contents.episodes.push_back({compared.name, *std::move(episode)});
+  for (ReportEpisode& episode : runs_.front().run->FlyReferences(*seed)) {
+    episodes.push_back(std::move(episode));
+  }
+  return episodes;
+}
+
+std::vector<RunComparison> CompareRuns(const std::vector<Path>& folders) {
+  std::vector<Path> ended;
+  std::set<Path> known;
+  for (const Path& folder : folders) {
+    std::error_code error;
+    if (!known.insert(std::filesystem::weakly_canonical(folder, error)).second) {
+      spdlog::warn("{} is named twice", folder.string());
+    } else if (const std::string reason = FinishedRun::WhyNone(folder); !reason.empty()) {
+      if (folders.size() == 1) {
+        throw UsageError(reason);
+      }
+      spdlog::warn("left out: {}", reason);
+    } else {
+      ended.push_back(folder);
+    }
+  }
+  if (ended.empty()) {
+    throw UsageError("none of the folders is of a run that has ended; a training makes one: fresco train");
+  }
+  const std::vector<std::string> names = NamesOf(ended);
+  std::map<std::string, std::vector<ComparedRun>> by_kind;
+  std::vector<std::string> kinds;  // in the order of the folders
+  for (size_t i = 0; i < ended.size(); ++i) {
+    auto run = std::make_shared<const FinishedRun>(ended[i]);
+    const WorldDescription& world = run->world().description();
+    const std::string kind = fmt::format("{}: {}, {}", world.name, ScoreLabel(world), world.success);
+    RunResult result = ResultOf(*run, ended[i]);
+    auto settings = FieldValues(run->experiment().config());
+    if (!by_kind.contains(kind)) {
+      kinds.push_back(kind);
+    }
+    by_kind[kind].push_back({Printable(names[i]), std::move(run), std::move(result), std::move(settings)});
+  }
+  std::vector<RunComparison> comparisons;
+  for (const std::string& kind : kinds) {
+    comparisons.emplace_back(std::move(by_kind[kind]));
+  }
+  return comparisons;
+}
+
+void WriteComparisonPage(const std::vector<RunComparison>& comparisons, const Path& file) {
+  ReportContents contents;
+  contents.title = "Fresco: runs compared";
+  for (const RunComparison& comparison : comparisons) {
+    const std::string prefix = comparisons.size() > 1 ? comparison.world_name() + ": " : "";
+    for (ReportTable& table : comparison.Tables()) {
+      table.title = prefix + table.title;
+      contents.tables.push_back(std::move(table));
+    }
+    if (const LinePlot plot = comparison.CurvesPlot(); !plot.curves.empty()) {
+      try {
+        contents.figures.push_back({prefix + "Learning curves", "The best evaluation so far of each run.",
+                                    SvgText(DrawLinePlot(plot))});
+      } catch (const Error& error) {
+        spdlog::warn("{} has no learning curves: {}", file.string(), error.what());
       }
     }
-    for (ReportEpisode& episode : runs_.front().run->FlyReferences()) {
-      contents.episodes.push_back(std::move(episode));
+    if (contents.episodes.empty()) {
+      contents.episodes = comparison.Episodes();
+      contents.world = &comparison.first_world();
     }
   }
   WriteFileAtomically(file, ReportPage(contents));

@@ -93,15 +93,17 @@ LinePlot LearningCurvePlot(const LearningCurve& curve) {
   return plot;
 }
 
-LinePlot BestSoFarPlot(const std::vector<LearningCurve>& curves, bool one_world) {
+LinePlot BestSoFarPlot(const std::vector<LearningCurve>& curves) {
   int64_t updates = 0;
   for (const LearningCurve& curve : curves) {
-    updates = std::max(updates, curve.points.back().updates);
+    updates = std::max(updates, curve.points.empty() ? 0 : curve.points.back().updates);
   }
   const bool thousands = updates >= kManyUpdates;
   LearningCurve common = curves.front();
-  if (!one_world) {
-    common.optimum_score.reset();
+  for (const LearningCurve& curve : curves) {
+    if (curve.optimum_score != common.optimum_score) {
+      common.optimum_score.reset();
+    }
   }
   LinePlot plot = PlotOverUpdates("Best evaluation so far", thousands, common);
   for (const LearningCurve& curve : curves) {
@@ -117,23 +119,39 @@ LinePlot BestSoFarPlot(const std::vector<LearningCurve>& curves, bool one_world)
 
 namespace {
 
+constexpr char kSummary[] = "summary.json";
+
 /// Returns the folder. Throws UsageError if it is not one of a run that has ended.
 const Path& CheckEnded(const Path& folder) {
-  constexpr char kSummary[] = "summary.json";
-  if (!std::filesystem::exists(folder / kSummary)) {
-    throw UsageError(fmt::format("expected the folder of a run that has ended; {} has no {}{}",
-                                 folder.string(), kSummary, NewestRunHint(folder, kSummary)));
+  if (const std::string reason = FinishedRun::WhyNone(folder); !reason.empty()) {
+    throw UsageError(reason);
   }
   return folder;
 }
 
 }  // namespace
 
+std::string FinishedRun::WhyNone(const Path& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(folder / kSummary, error)) {
+    return "";
+  }
+  const std::string found = std::filesystem::is_directory(folder, error)
+                                ? fmt::format("has no {}{}", kSummary, NewestRunHint(folder, kSummary))
+                                : "is no folder that can be read";
+  return fmt::format("expected the folder of a run that has ended; \"{}\" {}", folder.string(), found);
+}
+
 FinishedRun::FinishedRun(const Path& folder)
     : folder_(CheckEnded(folder)),
       experiment_(Experiment::Load((folder / "config.textproto").string())),
-      summary_(ReadFile(folder / "summary.json")) {
-  ReadLearningCurve();
+      summary_(ReadFile(folder / kSummary)) {
+  try {
+    ReadLearningCurve();
+  } catch (const std::exception& error) {
+    throw UsageError(fmt::format("{}: expected summary.json and metrics.csv as the learner writes them; {}",
+                                 folder.string(), error.what()));
+  }
 }
 
 std::optional<uint64_t> FinishedRun::ShownSeed() const {
@@ -145,34 +163,33 @@ std::optional<uint64_t> FinishedRun::ShownSeed() const {
              : std::nullopt;
 }
 
-std::optional<Episode> FinishedRun::FlyBest() const {
-  const std::optional<uint64_t> seed = ShownSeed();
-  if (!seed || !std::filesystem::exists(folder_ / "best.network")) {
+std::optional<Episode> FinishedRun::FlyBest(uint64_t seed) const {
+  if (!std::filesystem::exists(folder_ / "best.network")) {
     return std::nullopt;
   }
   const StoredNetwork network = ReadNetworkFile(folder_ / "best.network");
-  return FlyGreedily(experiment_, *seed, std::make_shared<const Vector>(network.parameters));
+  return FlyGreedily(experiment_, seed, std::make_shared<const Vector>(network.parameters));
 }
 
-std::vector<ReportEpisode> FinishedRun::FlyReferences() const {
+std::vector<ReportEpisode> FinishedRun::FlyReferences(uint64_t seed) const {
   std::vector<ReportEpisode> episodes;
-  const std::optional<uint64_t> seed = ShownSeed();
-  if (!seed) {
-    return episodes;
-  }
-  const std::vector<uint64_t> seeds = {*seed};
+  const std::vector<uint64_t> seeds = {seed};
   if (const std::shared_ptr<const Plan> plan = PlansIn(folder_, world(), seeds).front(); plan != nullptr) {
     episodes.push_back({FoundFlightName(plan->optimal), plan->flight});
   }
   for (const ReferencePolicy& policy : world().reference_policies()) {
-    episodes.push_back({policy.title, world().FlyReference(policy.name, *seed)});
+    episodes.push_back({policy.title, world().FlyReference(policy.name, seed)});
   }
   return episodes;
 }
 
 std::vector<ReportEpisode> FinishedRun::FlyEpisodes() const {
-  std::vector<ReportEpisode> episodes = FlyReferences();
-  if (std::optional<Episode> best = FlyBest()) {
+  const std::optional<uint64_t> seed = ShownSeed();
+  if (!seed) {
+    return {};
+  }
+  std::vector<ReportEpisode> episodes = FlyReferences(*seed);
+  if (std::optional<Episode> best = FlyBest(*seed)) {
     episodes.insert(episodes.begin(), {"this run (DQN)", *std::move(best)});
   }
   return episodes;

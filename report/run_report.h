@@ -35,14 +35,17 @@ struct LearningCurve {
 LinePlot LearningCurvePlot(const LearningCurve& curve);
 
 /// The plot shows the best evaluation so far of several runs, which are judged by the same figure, as a line
-/// each, named by its title. If they have a common optimum (`one_world`), it is a horizontal line. Curves
-/// without points are left out.
-LinePlot BestSoFarPlot(const std::vector<LearningCurve>& curves, bool one_world);
+/// each, named by its title. If all of them have the same optimum, it is a horizontal line. Curves without
+/// points are left out.
+LinePlot BestSoFarPlot(const std::vector<LearningCurve>& curves);
 
 /// A run that was read from its folder.
 class FinishedRun {
  public:
-  /// Throws UsageError if the folder does not hold a run that has ended.
+  /// Why the folder does not hold a run that has ended; empty if it does.
+  static std::string WhyNone(const std::filesystem::path& folder);
+
+  /// Throws UsageError if the folder does not hold a run that has ended, or if a file is damaged.
   explicit FinishedRun(const std::filesystem::path& folder);
   FinishedRun(const FinishedRun&) = delete;
   FinishedRun& operator=(const FinishedRun&) = delete;
@@ -51,23 +54,23 @@ class FinishedRun {
   const World& world() const { return experiment_.world(); }
   /// The text of summary.json.
   const std::string& summary() const { return summary_; }
-  /// The episode of the run's best evaluated policy. In a world without chance, one episode tells everything
-  /// about a policy. In one with chance, it is of the first seed that judges the delivered version, if
-  /// schedule.fixed_evaluation_episodes is set; otherwise there is none. Runs the code of the world, of a
-  /// plug-in too.
-  std::optional<Episode> FlyBest() const;
+  /// The seed of an episode that is worth showing. In a world without chance, one episode tells everything
+  /// about a policy. In one with chance, it is the first seed that judges the delivered version, if
+  /// schedule.fixed_evaluation_episodes is set; otherwise there is none.
+  std::optional<uint64_t> ShownSeed() const;
+  /// The episode of a seed as the run's best evaluated policy acts in it; none if nothing was evaluated. Runs
+  /// the code of the world, of a plug-in too.
+  std::optional<Episode> FlyBest(uint64_t seed) const;
   /// What to compare it with: the episodes of the optimum or the best that the search found (if there was a
-  /// search), and of the reference policies. Empty if FlyBest has no episode because of chance.
-  std::vector<ReportEpisode> FlyReferences() const;
-  /// FlyBest and FlyReferences.
+  /// search of this episode), and of the reference policies.
+  std::vector<ReportEpisode> FlyReferences(uint64_t seed) const;
+  /// FlyBest and FlyReferences of the shown seed.
   std::vector<ReportEpisode> FlyEpisodes() const;
   /// Has no points if nothing was evaluated.
   const LearningCurve& learning_curve() const { return learning_curve_; }
 
  private:
   void ReadLearningCurve();
-  /// The seed of the episodes that are shown; none if chance makes one episode tell little.
-  std::optional<uint64_t> ShownSeed() const;
 
   std::filesystem::path folder_;
   Experiment experiment_;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/identifier.h"
+#include "core/utf8.h"
 #include "msgs/experiment.h"
 #include "report/result_display.h"
 #include "storage/judgement.h"
@@ -35,7 +36,10 @@ WorldDescription DescriptionOf(const WorldNames* names) {
   description.success = "succeeded";
   if (names != nullptr) {
     description.figures = names->figures;
-    description.success = names->success;
+    for (Quantity& figure : description.figures) {
+      figure = {Printable(figure.name), Printable(figure.unit)};
+    }
+    description.success = Printable(names->success);
   }
   return description;
 }
@@ -77,6 +81,22 @@ std::string ReferenceScores(const std::string& configuration) {
   return text;
 }
 
+/// What is no learner's, but sent by somebody else, must not fill the terminal.
+void MakeShowable(double& value) {
+  constexpr double kLargest = 1e12;
+  value = std::abs(value) < kLargest ? value : std::nan("");
+}
+void MakeShowable(learner_status_t& status) {
+  for (double* value : {&status.epsilon, &status.learning_rate, &status.loss, &status.score, &status.success,
+                        &status.best_score, &status.score_bound, &status.gap_percent,
+                        &status.gap_median_percent, &status.gap_worst_percent, &status.staleness_updates,
+                        &status.transitions_per_s, &status.updates_per_s}) {
+    MakeShowable(*value);
+  }
+  status.waiting_for = Printable(status.waiting_for);
+  status.warning = Printable(status.warning);
+}
+
 /// The parts of a text "a | b | c" as lines of a terminal of 80 columns, each indented.
 std::string Wrapped(const std::string& text) {
   constexpr size_t kColumns = 78;
@@ -109,16 +129,20 @@ std::vector<std::string> RunWatch::NeededChannels() const {
   return {channels_.run, channels_.world, channels_.learner_status, channels_.actor_status};
 }
 
-void RunWatch::AddStatus(const learner_status_t& status, int64_t now_us, WatchedRun& run) {
+void RunWatch::AddStatus(learner_status_t status, int64_t now_us, WatchedRun& run) {
+  MakeShowable(status);
   if (!run.learner) {
     run.time_left_estimate = {};
   }
   run.time_left = run.time_left_estimate.Report(static_cast<double>(status.episodes),
                                                 static_cast<double>(status.total_episodes), now_us);
-  const bool evaluated = std::isfinite(status.score) && std::isfinite(status.best_score) &&
-                         (run.evaluations.empty() || run.evaluations.back().score != status.score);
-  if (evaluated) {
-    run.evaluations.push_back({static_cast<double>(status.updates), status.score, status.best_score});
+  const auto updates = static_cast<double>(status.updates);
+  if (status.updates >= 0 && std::isfinite(status.score) && std::isfinite(status.best_score)) {
+    // A run that was resumed has gone back.
+    std::erase_if(run.evaluations, [&](const TextCurvePoint& point) { return point.updates >= updates; });
+    if (run.evaluations.empty() || run.evaluations.back().score != status.score) {
+      run.evaluations.push_back({updates, status.score, status.best_score});
+    }
   }
   if (run.evaluations.size() > kMaximumEvaluations) {  // keep every second one
     size_t kept = 0;
@@ -175,7 +199,8 @@ void RunWatch::Add(const LcmEvent& event, int64_t now_us) {
       run->network_bytes += static_cast<int64_t>(event.message.size());
     } else if constexpr (std::is_same_v<Message, actor_status_t>) {
       if (run->actors.size() < kMaximumActors || run->actors.contains(message.actor_id)) {
-        run->actors[message.actor_id] = {message, now_us};
+        WatchedActor& actor = run->actors[message.actor_id] = {message, now_us};
+        actor.status.host = Printable(message.host);
       }
     }
   });
@@ -200,7 +225,7 @@ void RunWatch::Forget(int64_t now_us) {
 std::string RunWatch::TextOf(int64_t run_id, const WatchedRun& run, double seconds, int64_t now_us) const {
   const WorldNames* names = run.world.names();
   std::string text = fmt::format("run {}{}\n", IdentifierText(run_id),
-                                 names == nullptr ? "" : fmt::format(", world {}", names->world));
+                                 names == nullptr ? "" : fmt::format(", world {}", Printable(names->world)));
   if (run.learner) {
     const learner_status_t& learner = *run.learner;
     const double share = static_cast<double>(learner.episodes) /

@@ -62,7 +62,7 @@ class RunWatch {
   static constexpr size_t kMaximumEvaluations = 4096;  // of a run
 
   static void AddAnnouncement(const run_t& message, WatchedRun& run);
-  static void AddStatus(const learner_status_t& status, int64_t now_us, WatchedRun& run);
+  static void AddStatus(learner_status_t status, int64_t now_us, WatchedRun& run);
   /// The run; null if there are too many.
   WatchedRun* RunOf(int64_t run_id);
   void Forget(int64_t now_us);

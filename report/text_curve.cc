@@ -11,6 +11,9 @@ namespace fresco {
 
 std::string Draw(const TextCurve& curve) {
   FRESCO_CHECK(!curve.points.empty() && curve.columns >= 2 && curve.rows >= 2);
+  FRESCO_CHECK(
+      std::is_sorted(curve.points.begin(), curve.points.end(),
+                     [](const TextCurvePoint& a, const TextCurvePoint& b) { return a.updates < b.updates; }));
   const auto worse_best = [](const TextCurvePoint& a, const TextCurvePoint& b) { return a.best < b.best; };
   const auto [least, most] = std::minmax_element(curve.points.begin(), curve.points.end(), worse_best);
   double low = std::min(least->best, curve.optimum.value_or(least->best));
@@ -30,7 +33,7 @@ std::string Draw(const TextCurve& curve) {
   std::vector<std::string> lines(static_cast<size_t>(curve.rows),
                                  std::string(static_cast<size_t>(curve.columns), ' '));
   const auto set = [&](int row, int column, char character) {
-    if (row >= 0 && row < curve.rows) {
+    if (row >= 0 && row < curve.rows && column >= 0 && column < curve.columns) {
       lines[static_cast<size_t>(row)][static_cast<size_t>(column)] = character;
     }
   };

@@ -9,14 +9,14 @@ namespace fresco {
 
 /// An evaluation during a training.
 struct TextCurvePoint {
-  double updates = 0;
-  double score = 0;  ///< finite
-  double best = 0;   ///< the best score so far, finite
+  double updates = 0;  ///< >= 0
+  double score = 0;    ///< finite
+  double best = 0;     ///< the best score so far, finite
 };
 
 struct TextCurve {
   std::string title;                     ///< what the scores are, with their unit
-  std::vector<TextCurvePoint> points{};  ///< at least one, by updates
+  std::vector<TextCurvePoint> points{};  ///< at least one; CHECKs that updates rise
   std::optional<double> optimum{};       ///< drawn as a line; none if it is not known
   int columns = 60;                      ///< of the drawing without its labels, >= 2
   int rows = 8;                          ///< of the drawing, >= 2

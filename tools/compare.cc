@@ -1,11 +1,13 @@
 // The subcommand `fresco compare`: sets runs beside each other.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/files.h"
 #include "core/help_formatter.h"
 #include "report/run_comparison.h"
 #include "tools/subcommands.h"
@@ -20,14 +22,24 @@ struct CompareOptions {
 };
 
 int Compare(const CompareOptions& options) {
-  const RunComparison comparison({options.runs.begin(), options.runs.end()});
-  if (options.format == "json") {
-    fmt::print("{}\n", comparison.Json());
-  } else {
-    fmt::print("{}", comparison.Text());
-  }
   if (!options.out.empty()) {
-    comparison.WritePage(options.out);
+    CheckOutputFolder(std::filesystem::absolute(options.out).parent_path());
+  }
+  const std::vector<RunComparison> comparisons = CompareRuns({options.runs.begin(), options.runs.end()});
+  std::string text;
+  for (const RunComparison& comparison : comparisons) {
+    const bool first = &comparison == &comparisons.front();
+    if (options.format == "json") {
+      text += (first ? "[" : ",\n") + comparison.Json();
+    } else {
+      const std::string heading = comparisons.size() > 1 ? comparison.world_name() + "\n" : "";
+      text += (first ? "" : "\n") + heading + comparison.Text();
+    }
+  }
+  fmt::print("{}{}", text, options.format == "json" ? "]\n" : "");
+  std::fflush(stdout);  // a problem with the page can't hide it
+  if (!options.out.empty()) {
+    WriteComparisonPage(comparisons, options.out);
     if (options.format == "text") {
       fmt::print("\nthe page with curves and flights is {}\n", options.out);
     }

@@ -19,6 +19,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/help_formatter.h"
+#include "core/identifier.h"
 #include "core/installation.h"
 #include "core/memory.h"
 #include "msgs/channels.h"
@@ -131,12 +132,12 @@ Finding CheckBuffer(const MulticastEndpoint& endpoint) {
   return {"receive_buffer", Health::kGood, fmt::format("{} bytes", granted)};
 }
 
-Finding CheckReach(const std::string& url) {
-  const size_t at = url.find("ttl=");
-  const bool this_machine = at == std::string::npos || url[at + 4] == '0';
+Finding CheckReach(const MulticastEndpoint& endpoint) {
   return {"reach", Health::kGood,
-          this_machine ? "ttl=0: only this machine hears the run; with ttl=1 in --lcm-url, the network does"
-                       : fmt::format("{}: the run crosses networks", url.substr(at, 5))};
+          endpoint.ttl == 0
+              ? "ttl=0: only this machine hears the run; with ttl=1 in --lcm-url, its network does"
+          : endpoint.ttl == 1 ? "ttl=1: this machine's network hears the run"
+                              : fmt::format("ttl={}: the run crosses routers", endpoint.ttl)};
 }
 
 /// Listens for a while: other runs on this port would be heard, and hear this one.
@@ -166,11 +167,15 @@ Finding CheckDelivery(const DoctorOptions& options) {
   constexpr int kMessages = 10'000;
   constexpr int64_t kMessagesPerSecond = 20'000;
   const std::string channel = options.channel_prefix + "_DOCTOR";
+  const int64_t own = DrawIdentifier();  // another doctor may be at work
   const auto receiver = OpenLcmBus(options.lcm_url);
   const auto sender = OpenLcmBus(options.lcm_url);
   int received = 0;
-  receiver->Subscribe(channel, [&](std::span<const std::byte>) { ++received; });
-  const std::vector<std::byte> message(1350);
+  std::vector<std::byte> message(1350);
+  std::memcpy(message.data(), &own, sizeof own);
+  receiver->Subscribe(channel, [&](std::span<const std::byte> heard) {
+    received += std::equal(heard.begin(), heard.end(), message.begin(), message.end()) ? 1 : 0;
+  });
   const int64_t begin_us = MonotonicMicroseconds();
   for (int sent = 0; sent < kMessages; ++sent) {
     const int64_t due_us = begin_us + sent * int64_t{1'000'000} / kMessagesPerSecond;
@@ -208,8 +213,9 @@ Finding CheckActor(const ProbedActor& actor, const ProbeResult& probes) {
                         actor.pid, probes.sent),
             kAcceptMulticast};
   }
-  const double lost_there = 1 - static_cast<double>(actor.received) / probes.sent;
-  const double lost_here = 1 - static_cast<double>(actor.answers) / std::max(actor.received, 1);
+  const double lost_there = std::max(0.0, 1 - static_cast<double>(actor.received) / probes.sent);
+  const double lost_here =
+      std::max(0.0, 1 - static_cast<double>(actor.answers) / std::max(actor.received, 1));
   Finding finding{
       "host " + actor.host, Health::kGood,
       fmt::format("actor {}: of {} messages at {:.0f} a second {:.2f} % lost on the way there, {:.2f} % on "
@@ -240,12 +246,17 @@ std::vector<Finding> CheckHosts(const DoctorOptions& options) {
     findings.push_back(CheckActor(actor, probes));
   }
   if (findings.empty()) {
+    std::string url = ParseLcmUrl(options.lcm_url).text;
+    if (const size_t stays_here = url.rfind("ttl=0"); stays_here != std::string::npos) {
+      url.replace(stays_here, 5, "ttl=1");
+    }
     findings.push_back(
-        {"hosts", Health::kFailure,
-         fmt::format("no actor answered {} messages; start one on each of the other hosts, with a URL "
-                     "whose ttl is 1 or more on all hosts",
-                     probes.sent),
-         fmt::format("fresco-actor --lcm-url '{}'", options.lcm_url)});
+        {"hosts", Health::kWarning,
+         fmt::format(
+             "no actor answered {} messages; start one on each of the other hosts, and use a URL with "
+             "ttl=1 or more on all hosts",
+             probes.sent),
+         fmt::format("fresco-actor --lcm-url '{}'", url)});
   }
   return findings;
 }
@@ -303,6 +314,11 @@ Finding CheckProgram(const std::string& name, const std::string& purpose, const 
 std::vector<Finding> Examine(const DoctorOptions& options) {
   std::vector<Finding> findings;
   const LcmUrl url = ParseLcmUrl(options.lcm_url);
+  ChannelsWithPrefix(options.channel_prefix);  // throws if there are no such channels
+  if (url.text == "memq://") {
+    throw UsageError(
+        "doctor: expected a URL that several processes share, udpm:// or tcpq://; found memq://");
+  }
   bool bus_works = true;
   const auto add = [&](Finding finding) {
     bus_works &= finding.health != Health::kFailure;
@@ -312,7 +328,7 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
     add(CheckRoute(*url.multicast));
     add(CheckPort(url));
     add(CheckBuffer(*url.multicast));
-    add(CheckReach(url.text));
+    add(CheckReach(*url.multicast));
   }
   if (bus_works) {  // the checks before say why it can't
     try {
@@ -321,7 +337,7 @@ std::vector<Finding> Examine(const DoctorOptions& options) {
         add(CheckDelivery(options));
       }
     } catch (const Error& error) {
-      add({"delivery", Health::kFailure, error.what(), kAcceptMulticast});
+      add({"delivery", Health::kFailure, error.what(), url.multicast ? kAcceptMulticast : ""});
     }
   }
   if (bus_works && options.hosts) {
@@ -360,7 +376,8 @@ int Doctor(const DoctorOptions& options) {
     }
   }
   if (options.format == "json") {
-    fmt::print("{}\n", nlohmann::ordered_json{{"works", works}, {"findings", list}}.dump(2));
+    fmt::print("{}\n", nlohmann::ordered_json{{"works", works}, {"findings", list}}.dump(
+                           2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else {
     fmt::print("{}\n{}\n", text,
                works ? "Training works on this machine." : "Training can't work on this machine.");
@@ -392,7 +409,7 @@ void AddDoctor(CLI::App& app, Command& command) {
       ->capture_default_str()
       ->needs(hosts)
       ->check(CLI::Range(1, 10'000));
-  AddKeyFileOption(*doctor, options->probe.key_file);
+  AddKeyFileOption(*doctor, options->probe.key_file)->needs(hosts);
   doctor->add_option("--format", options->format, "How the result is printed")
       ->check(OneOf({"text", "json"}));
   doctor->footer(

@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "core/identifier.h"
 #include "core/signals.h"
+#include "core/utf8.h"
 #include "msgs/channels.h"
 #include "msgs/message_bus.h"
 
@@ -34,7 +35,7 @@ class Answers {
     const int64_t sent_utime = sent_utimes_[static_cast<size_t>(answer.number)];
     const int64_t now_utime = WallMicroseconds();
     ProbedActor& actor = actors_[answer.actor_id];
-    actor.host = answer.host;
+    actor.host = Printable(answer.host);
     actor.pid = answer.pid;
     actor.received = std::max(actor.received, answer.received);
     const double round_trip_ms = 1e-3 * static_cast<double>(now_utime - sent_utime);
@@ -49,7 +50,7 @@ class Answers {
   void Add(const actor_status_t& status) {
     if (actors_.size() < kMaximumActors) {
       ProbedActor& actor = actors_[status.actor_id];
-      actor.host = status.host;
+      actor.host = Printable(status.host);
       actor.pid = status.pid;
     }
   }

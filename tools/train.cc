@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -66,7 +67,7 @@ int MindRun(TrainingRun& run, const Experiment& experiment) {
   TimeLeft time_left;
   const auto view =
       std::make_shared<RunWatch>(ChannelsWithPrefix(experiment.run().channel_prefix()), run.run_id());
-  if (line.on_terminal()) {
+  if (isatty(STDERR_FILENO) != 0) {
     for (const std::string& channel : view->NeededChannels()) {
       run.bus().Subscribe(channel, [view, channel](std::span<const std::byte> message) {
         view->Add({.channel = channel, .message = message}, MonotonicMicroseconds());

@@ -41,7 +41,9 @@ TEST_F(ActorTest, AnswersProbesAndCountsThoseOfASeries) {
   ask(7, 0);
   ask(7, 5);
   ask(8, 0);
-  ASSERT_EQ(answers.size(), 3U);
+  ask(7, 6);  // two doctors at once
+  ASSERT_EQ(answers.size(), 4U);
+  EXPECT_EQ(answers[3].received, 3);
   EXPECT_EQ(answers[1].run_id, 7);
   EXPECT_EQ(answers[1].number, 5);
   EXPECT_EQ(answers[1].received, 2);

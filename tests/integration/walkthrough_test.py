@@ -48,7 +48,7 @@ class Walkthrough(unittest.TestCase):
     def test_what_the_readme_proposes_after_a_training(self):
         script = next(block for block in blocks(ROOT / "README.md", "") if "evaluate --policy runs/NAME" in block)
         output = self.run_script("tools/fresco train --config ci --out runs/NAME\n" + script,
-                                 ("--config cartpole --seed 2", "--config cartpole --seed 2 --set schedule.episodes=20 --out other"),
+                                 ("--config cartpole --seed 2", "--config cartpole --seed 2 --set schedule.episodes=20"),
                                  # These have tests of their own: resume_test, watch_test, spy_test.
                                  *((f"tools/fresco {command}", ": ") for command in ("train --resume", "watch ", "spy ")))
         self.assertIn("arrived; average AoI", output)

@@ -101,6 +101,30 @@ TEST_F(RunWatchTest, ShowsOneRunOnlyIfItIsAskedTo) {
   EXPECT_EQ(watch.Text(now_us_), "");
 }
 
+TEST_F(RunWatchTest, SurvivesAbsurdAndRepeatedStatuses) {
+  RunWatch watch(channels_);
+  Announce(watch, "");
+  const auto send = [&](int64_t updates, double score) {
+    learner_status_t status = Status(100, score, score);
+    status.updates = updates;
+    status.warning = "\x1b[2J\nclear";
+    Send(watch, channels_.learner_status, status);
+  };
+  for (const int64_t updates : {int64_t{1000}, int64_t{2000}, int64_t{3000}, int64_t{1500}, int64_t{0},
+                                int64_t{1} << 62, -(int64_t{1} << 62), int64_t{700}, int64_t{800}}) {
+    send(updates, 10 + 1e-3 * static_cast<double>(updates % 1000));
+    watch.Text(now_us_);
+  }
+  for (const double score : {1e308, -1.7e308, std::numeric_limits<double>::infinity(), 1.0}) {
+    send(900, score);
+    const std::string text = watch.Text(now_us_);
+    EXPECT_LT(text.size(), 5000U);
+    EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+  }
+  // A run that was resumed goes back; what it did before is forgotten.
+  EXPECT_THAT(watch.Text(now_us_), HasSubstr("900 updates"));
+}
+
 TEST_F(RunWatchTest, KeepsABoundedNumberOfEvaluations) {
   RunWatch watch(channels_);
   for (int64_t i = 1; i < 20'000; ++i) {
