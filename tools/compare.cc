@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "core/help_formatter.h"
 #include "report/run_comparison.h"
+#include "storage/run_folder.h"
 #include "tools/subcommands.h"
 
 namespace fresco {
@@ -22,8 +23,9 @@ struct CompareOptions {
 };
 
 int Compare(const CompareOptions& options) {
+  const std::filesystem::path folder = std::filesystem::absolute(options.out).parent_path();
   if (!options.out.empty()) {
-    CheckOutputFolder(std::filesystem::absolute(options.out).parent_path());
+    CheckOutputFolder(folder);
   }
   const std::vector<RunComparison> comparisons = CompareRuns({options.runs.begin(), options.runs.end()});
   std::string text;
@@ -39,6 +41,7 @@ int Compare(const CompareOptions& options) {
   fmt::print("{}{}", text, options.format == "json" ? "]\n" : "");
   std::fflush(stdout);  // a problem with the page can't hide it
   if (!options.out.empty()) {
+    RunFolder::Make(folder);
     WriteComparisonPage(comparisons, options.out);
     if (options.format == "text") {
       fmt::print("\nthe page with curves and flights is {}\n", options.out);
