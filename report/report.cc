@@ -91,6 +91,13 @@ std::vector<Section> Sections(const ReportContents& contents, const Drawing* dra
   return sections;
 }
 
+/// Whether numbers and figures are few enough to stand side by side, so that a large screen shows the flight
+/// below them, too.
+bool HasOverview(const ReportContents& contents) {
+  constexpr size_t kMostFigures = 2;
+  return !contents.tables.empty() && !contents.figures.empty() && contents.figures.size() <= kMostFigures;
+}
+
 std::string LinksHtml(const std::vector<Section>& sections) {
   std::string html = "<nav aria-label=\"Sections\">\n";
   for (const Section& section : sections) {
@@ -122,6 +129,7 @@ std::string ReportPage(const ReportContents& contents) {
        {"summary",
         contents.summary.empty() ? "" : "<p class=\"summary\">" + EscapedHtml(contents.summary) + "</p>"},
        {"links", sections.size() > 1 ? LinksHtml(sections) : ""},
+       {"arrangement", HasOverview(contents) ? " class=\"overview\"" : ""},
        {"sections", SectionsHtml(sections)},
        {"version", kSoftwareVersion},
        {"footnote", drawing == nullptr ? "" : " " + std::string(drawing->footnote)},
