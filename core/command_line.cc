@@ -108,6 +108,7 @@ Program::Program(const std::string& name, const std::string& description, LogSty
   command_line_.set_version_flag(
       "--version", fmt::format("{} {}, commit {}{}", name, kSoftwareVersion, build.commit,
                                build.arithmetic.empty() ? "" : ", arithmetic " + build.arithmetic));
+  command_line_.get_version_ptr()->description("Print version, commit and the arithmetic of networks");
 }
 
 int Program::Run(int argc, const char* const* argv, const std::function<int()>& run) {

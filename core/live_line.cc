@@ -22,12 +22,13 @@ winsize TerminalSize() {
   return known ? size : winsize{.ws_row = 24, .ws_col = 80, .ws_xpixel = 0, .ws_ypixel = 0};
 }
 
-/// Whether standard error is a terminal whose lines can be rewritten. It must belong to this process: what a
-/// process in the background erases may be another's.
+/// Whether standard error is a terminal whose lines can be rewritten. A process in the background leaves the
+/// lines of others alone.
 bool CanRewrite() {
   const char* kind = std::getenv("TERM");
+  const pid_t foreground = tcgetpgrp(STDERR_FILENO);  // -1: of a terminal without jobs
   return isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb" &&
-         tcgetpgrp(STDERR_FILENO) == getpgrp();
+         (foreground == -1 || foreground == getpgrp());
 }
 
 /// The text's lines, as many and as much of them as the terminal can show.

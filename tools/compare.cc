@@ -23,8 +23,9 @@ struct CompareOptions {
 };
 
 int Compare(const CompareOptions& options) {
-  const std::filesystem::path folder = std::filesystem::absolute(options.out).parent_path();
+  std::filesystem::path folder;  // of the page
   if (!options.out.empty()) {
+    folder = std::filesystem::absolute(options.out).parent_path();
     CheckOutputFolder(folder);
   }
   const std::vector<RunComparison> comparisons = CompareRuns({options.runs.begin(), options.runs.end()});

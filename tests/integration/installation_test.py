@@ -83,7 +83,7 @@ class Installation(FrescoTest):
         self.assertIn(f"{READY_EXPERIMENTS} in {self.prefix}/share/fresco/configs", errors)
         for program in ("fresco-learner", "fresco"):
             output, _ = self.run_installed(program, *(["train"] if program == "fresco" else []), "--help")
-            self.assertIn("default: quick", output)
+            self.assertIn("default: quick", " ".join(output.split()))
 
     def test_begins_the_default_experiment_with_its_own_learner(self):
         settings = ["--set", "schedule.episodes=20", "--set", "schedule.minimum_replay_size=100", "--set",

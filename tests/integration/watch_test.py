@@ -66,7 +66,7 @@ class Watch(FrescoTest):
     def test_train_shows_its_run_on_a_terminal(self):
         master, slave = pty.openpty()
         train = subprocess.Popen([BIN / "fresco", "train", "--config", CI_CONFIG, "--lcm-url", url(7864), "--out", self.folder / "run"],
-                                 stdin=slave, stdout=subprocess.DEVNULL, stderr=slave)
+                                 stdin=slave, stdout=subprocess.DEVNULL, stderr=slave, env={**os.environ, "TERM": "xterm"})
         self.addCleanup(train.kill)
         os.close(slave)
         screen = b""
