@@ -38,7 +38,7 @@ class RunComparison {
   /// At least one run; all are of the same kind of world.
   explicit RunComparison(std::vector<ComparedRun> runs) : runs_(std::move(runs)) {}
 
-  /// The kind of world: "uav".
+  /// The kind of world: "cartpole".
   const std::string& world_name() const { return world().name; }
 
   /// Three tables; those without a row are left out. Results: a row for each run, with its score, gap,
