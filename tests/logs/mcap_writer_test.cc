@@ -150,7 +150,7 @@ TEST(McapWriter, WritesMessagesThatTheIndexFinds) {
     } else if (record.kind == 0x0F) {
       EXPECT_EQ(content.Number(4), LiteralCrc32(std::string_view(file).substr(0, record.begin)));
     } else if (record.kind == 0x08) {
-      content.Number(16);
+      content.Take(16);
       const uint64_t begin = content.Number(8);
       EXPECT_EQ(content.Number(8), chunk_lengths.at(begin));
     } else if (record.kind == 0x0B) {
