@@ -1,6 +1,7 @@
 #include "worlds/episode.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "core/error.h"
@@ -48,7 +49,9 @@ double Return(const Episode& episode) {
 }
 
 double GapPercent(double score, double least_score) {
-  return 100 * (score - least_score) / least_score;
+  constexpr double kRounding = 1e-9;  // of sums of the same ages in another order
+  const double gap = 100 * (score - least_score) / least_score;
+  return std::abs(gap) < kRounding ? 0 : gap;
 }
 
 int RandomAllowedAction(std::span<const uint8_t> mask, RandomStream& stream) {
