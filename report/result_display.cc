@@ -165,6 +165,10 @@ std::string AlignedTable(const std::vector<TableRow>& rows, std::vector<size_t> 
 
 }  // namespace
 
+std::string Label(const Quantity& quantity) {
+  return Title(quantity.name) + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]");
+}
+
 std::string TableText(const ReportTable& table) {
   std::vector<TableRow> rows = {table.header};
   rows.insert(rows.end(), table.rows.begin(), table.rows.end());

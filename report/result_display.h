@@ -48,6 +48,9 @@ std::string OptimumNote(const std::string& summary_json);
 /// Returns the final table of a run, followed by the note and by the table of gaps, from a summary's JSON.
 std::string ResultTable(const std::string& summary_json, const std::string& title = "this run (DQN)");
 
+/// Returns a quantity's title with its unit: "average AoI [slots]".
+std::string Label(const Quantity& quantity);
+
 /// Returns a table as text: its heading and a line for each row, columns of numbers at the right.
 std::string TableText(const ReportTable& table);
 

@@ -41,11 +41,6 @@ RunResult ResultOf(const FinishedRun& run, const Path& folder) {
   }
 }
 
-std::string ScoreLabel(const WorldDescription& world) {
-  const Quantity& figure = world.figures.front();
-  return Title(figure.name) + (figure.unit.empty() ? "" : " [" + figure.unit + "]");
-}
-
 /// The numbers of these runs; empty unless each has one, since means over different runs can't be compared.
 std::vector<double> Sample(const std::vector<const ComparedRun*>& runs,
                            std::optional<double> RunResult::*number) {
@@ -144,9 +139,10 @@ std::vector<std::vector<const ComparedRun*>> RunComparison::SeedGroups() const {
 }
 
 ReportTable RunComparison::ResultTable() const {
-  ReportTable table{"Results",
-                    {"run", ScoreLabel(world()), "gap", Title(world().success), "updates", "time", "weights"},
-                    {}};
+  ReportTable table{
+      "Results",
+      {"run", Label(world().figures.front()), "gap", Title(world().success), "updates", "time", "weights"},
+      {}};
   for (const ComparedRun& compared : runs_) {
     const RunResult& result = compared.result;
     table.rows.push_back({compared.name, result.score ? fmt::format("{:.3f}", *result.score) : kNoValue,
@@ -161,7 +157,7 @@ ReportTable RunComparison::ResultTable() const {
 
 ReportTable RunComparison::SeedTable() const {
   ReportTable table{"Means, with half of their 95 % intervals",
-                    {"runs that differ in the seed alone", "seeds", ScoreLabel(world()), "gap"},
+                    {"runs that differ in the seed alone", "seeds", Label(world().figures.front()), "gap"},
                     {}};
   for (const std::vector<const ComparedRun*>& members : SeedGroups()) {
     std::vector<std::string> names;
@@ -291,7 +287,8 @@ std::vector<RunComparison> CompareRuns(const std::vector<Path>& folders) {
   for (size_t i = 0; i < ended.size(); ++i) {
     auto run = std::make_shared<const FinishedRun>(ended[i]);
     const WorldDescription& world = run->world().description();
-    const std::string kind = fmt::format("{}: {}, {}", world.name, ScoreLabel(world), world.success);
+    const std::string kind =
+        fmt::format("{}: {}, {}", world.name, Label(world.figures.front()), world.success);
     RunResult result = ResultOf(*run, ended[i]);
     auto settings = FieldValues(run->experiment().config());
     if (!by_kind.contains(kind)) {

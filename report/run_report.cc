@@ -25,14 +25,6 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-std::string Label(const Quantity& quantity) {
-  return Title(quantity.name) + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]");
-}
-
-}  // namespace
-
-namespace {
-
 constexpr int64_t kManyUpdates = 10'000;  // shown in thousands
 
 /// Whether a point has a score to show: in a world without chance, one that failed has none.

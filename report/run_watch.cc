@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <type_traits>
 
 #include "core/error.h"
@@ -47,7 +48,9 @@ WorldDescription DescriptionOf(const WorldNames* names) {
 std::string ActorLine(const actor_status_t& status, const std::optional<learner_status_t>& learner) {
   const int32_t newest = NewestVersion(status);
   const std::string behind =
-      !learner || newest < 0 ? "-" : fmt::format("{}", std::max(learner->current_version - newest, 0));
+      !learner || newest < 0
+          ? "-"
+          : fmt::format("{}", std::max<int64_t>(int64_t{learner->current_version} - newest, 0));
   return fmt::format("  {:<20} {:>13.0f} {:>8} {:>6} {:>6} {:>8} {:>10.1f}\n",
                      fmt::format("{}:{}", status.host, status.pid), status.transitions_per_s,
                      fmt::format("{}/{}", status.open_orders, status.capacity), behind,
@@ -55,9 +58,12 @@ std::string ActorLine(const actor_status_t& status, const std::optional<learner_
 }
 
 /// The mean scores of the world's reference policies in the episodes that judge the run: "AoI-based 17.543".
-/// Empty if the world has none, if these episodes are not known, or if the world's code is not Fresco's.
+/// Empty if the world has none, if these episodes are not known or would take long, or if the world's code is
+/// not Fresco's.
 std::string ReferenceScores(const std::string& configuration) {
   constexpr char kOrigin[] = "the run's configuration";
+  constexpr int64_t kMostTransitions =
+      100'000;  // whoever sends a configuration is not to keep this program busy
   if (!Experiment::CodeIn(configuration, kOrigin).empty()) {
     return "";
   }
@@ -65,7 +71,9 @@ std::string ReferenceScores(const std::string& configuration) {
   const World& world = experiment.world();
   std::vector<uint64_t> seeds = {0};
   if (world.description().random) {
-    if (!experiment.schedule().fixed_evaluation_episodes()) {
+    const int64_t episodes = experiment.schedule().evaluation_episodes();
+    if (!experiment.schedule().fixed_evaluation_episodes() ||
+        episodes * world.longest_episode() > kMostTransitions) {
       return "";
     }
     seeds = FixedEvaluationSeeds(experiment.schedule());
@@ -82,9 +90,10 @@ std::string ReferenceScores(const std::string& configuration) {
 }
 
 /// What is no learner's, but sent by somebody else, must not fill the terminal.
-void MakeShowable(double& value) {
-  constexpr double kLargest = 1e12;
-  value = std::abs(value) < kLargest ? value : std::nan("");
+template <class Number>
+void MakeShowable(Number& value) {
+  constexpr Number kLargest = 1e12F;
+  value = std::abs(value) < kLargest ? value : std::numeric_limits<Number>::quiet_NaN();
 }
 void MakeShowable(learner_status_t& status) {
   for (double* value : {&status.epsilon, &status.learning_rate, &status.loss, &status.score, &status.success,
@@ -201,6 +210,8 @@ void RunWatch::Add(const LcmEvent& event, int64_t now_us) {
       if (run->actors.size() < kMaximumActors || run->actors.contains(message.actor_id)) {
         WatchedActor& actor = run->actors[message.actor_id] = {message, now_us};
         actor.status.host = Printable(message.host);
+        MakeShowable(actor.status.transitions_per_s);
+        MakeShowable(actor.status.weights_latency_ms);
       }
     }
   });
@@ -253,9 +264,7 @@ std::string RunWatch::TextOf(int64_t run_id, const WatchedRun& run, double secon
     }
     text += Wrapped(traffic);
     if (run.evaluations.size() > 1) {
-      const Quantity figure = DescriptionOf(names).figures.front();
-      TextCurve curve{.title = "  " + Title(figure.name) +
-                               (figure.unit.empty() ? "" : " [" + figure.unit + "]") +
+      TextCurve curve{.title = "  " + Label(DescriptionOf(names).figures.front()) +
                                ": * best so far, . evaluations" +
                                (learner.optimum_proved != 0 ? ", - exact optimum" : ""),
                       .points = run.evaluations};

@@ -101,6 +101,39 @@ TEST_F(RunWatchTest, ShowsOneRunOnlyIfItIsAskedTo) {
   EXPECT_EQ(watch.Text(now_us_), "");
 }
 
+TEST_F(RunWatchTest, FliesNoEndlessReferences) {
+  for (const bool endless : {false, true}) {
+    RunWatch watch(channels_);
+    Announce(watch,
+             std::string("scenario { slots: 300 initial_energy_j: 1e5 random_sensors { per_episode: true } } "
+                         "agent { set_network {} } schedule { fixed_evaluation_episodes: true "
+                         "evaluation_episodes: ") +
+                 (endless ? "1000 }" : "3 }"));
+    Send(watch, channels_.learner_status, Status(100, 20, 20));
+    EXPECT_EQ(watch.Text(now_us_).find("for comparison") == std::string::npos, endless);
+  }
+}
+
+TEST_F(RunWatchTest, SurvivesAbsurdActors) {
+  RunWatch watch(channels_);
+  learner_status_t learner = Status(100, 20, 20);
+  learner.current_version = std::numeric_limits<int32_t>::min();
+  Send(watch, channels_.learner_status, learner);
+  actor_status_t actor{};
+  actor.run_id = kRun;
+  actor.actor_id = 5;
+  actor.host = "\x1b[31mred";
+  actor.transitions_per_s = actor.weights_latency_ms = std::numeric_limits<float>::max();
+  actor.held_count = 1;
+  actor.held = {{}};
+  actor.held[0].version = std::numeric_limits<int32_t>::max();
+  Send(watch, channels_.actor_status, actor);
+  const std::string text = watch.Text(now_us_);
+  EXPECT_THAT(text, HasSubstr(" [31mred:0"));
+  EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+  EXPECT_LT(text.size(), 1000U);
+}
+
 TEST_F(RunWatchTest, SurvivesAbsurdAndRepeatedStatuses) {
   RunWatch watch(channels_);
   Announce(watch, "");
