@@ -1,5 +1,5 @@
-"""The walkthroughs in docs/ as a reader follows them: every command of every block, in order, in one shell. And all other
-commands in README.md and docs/: programs, subcommands, options and files that they name exist."""
+"""The pages in docs/ as a reader follows them: every command of every block that is marked `sh`, in order, in one shell.
+Of all other commands in README.md and docs/: programs, subcommands, options and files that they name exist."""
 import os
 import pathlib
 import re
@@ -21,7 +21,7 @@ def blocks(page, language):
     return re.findall(rf"^```{language}\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
-class Walkthrough(unittest.TestCase):
+class Pages(unittest.TestCase):
     """Each in a network namespace of its own, since a reader has the default port for himself."""
 
     @classmethod
@@ -29,9 +29,10 @@ class Walkthrough(unittest.TestCase):
         if subprocess.run(["unshare", "-Urn", "true"], capture_output=True).returncode != 0:
             raise unittest.SkipTest("needs network namespaces")
 
-    def follow(self, name, *shorter):
-        """Runs the page's commands; `shorter` replaces parts of them that would take long."""
-        return self.run_script("\n".join(blocks(ROOT / "docs" / name, "sh")), *shorter)
+    def follow(self, name, *shorter, before=""):
+        """Runs the page's commands, after those that make what the reader has already; `shorter` replaces parts of them
+        that would take long."""
+        return self.run_script("\n".join([before, *blocks(ROOT / "docs" / name, "sh")]), *shorter)
 
     def run_script(self, script, *shorter):
         for text, replacement in shorter:
@@ -39,9 +40,10 @@ class Walkthrough(unittest.TestCase):
             script = script.replace(text, replacement)
         with tempfile.TemporaryDirectory(prefix="fresco-walk-") as folder:
             path = pathlib.Path(folder)
-            for link in ("configs", "examples", "plugins"):
+            for link in ("configs", "examples", "plugins", "tests"):
                 (path / link).symlink_to(ROOT / link)
             (path / "tools").mkdir()
+            (path / "tools" / "map_picture").symlink_to(ROOT / "tools" / "map_picture")
             program = path / "tools" / "fresco"
             program.write_text(f'#!/bin/bash\nexec -a tools/fresco {shlex.quote(str(BIN / "fresco"))} "$@"\n')
             program.chmod(0o755)
@@ -88,9 +90,59 @@ class Walkthrough(unittest.TestCase):
         self.assertEqual(len(re.findall(r"(?m)^  this run \(DQN\) .*yes$", output)), 3, output)
         self.assertIn("corridor_policy.h", self.files)
 
+    def test_logs_and_lcms_own_tools(self):
+        few = "--config ci --set schedule.episodes=100"
+        output = self.follow(
+            "lcm.md",
+            ("train --record  ", f"train {few} --record  "),
+            ("train --record --record-split-mb 500", f"train {few} --record --record-split-mb 1"),
+            ("tools/fresco train --resume DIR", ": "),  # resume_test
+            ("log record --out run.lcm  ", "log record --seconds 0.1 --out nothing.lcm  "),
+            ("--seconds 60", "--seconds 0.1"), ("--seconds 5", "--seconds 0.1"),
+            ("lcm-logger --lcm-url='udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304' run.lcm",
+             "timeout --preserve-status 0.5 lcm-logger --lcm-url='udpm://239.255.76.67:7667?ttl=0' logged.lcm"),
+            ("--run 588392cf45293d13", "--run $(tools/fresco log info many.lcm | grep -oP '^run \\K\\w+')"),
+            ("--channel FRESCO_LEARNER_STATUS", "--channel FRESCO_LEARNER_STATUS --seconds 0.1"),
+            ("--start 60 --stop 120 --loop", "--start 1 --stop 2"),
+            ("lcm-logplayer-gui run.lcm ", "true "),  # a window
+            ("schedule.episodes=1500", "schedule.episodes=100"), ("runs/live $QUICK", "runs/live-2 $QUICK"),
+            ("runs/live/traffic.lcm --out runs/again $QUICK", "runs/live-2/traffic.lcm --out runs/again-2 $QUICK"),
+            ("tools/fresco watch  ", ":  "),  # watch_test
+            ("tools/fresco doctor --hosts", ": "),  # doctor_test
+            ("runs/NAME --loop", "runs/live --rate 1000"), ("tools/fresco spy", ": "),  # spy_test
+            before=f"tools/fresco train {few} --record --out runs/first\n"
+                   "cp runs/first/traffic.lcm run.lcm; cp run.lcm many.lcm\n")
+        weights = re.findall(r"weights_crc32c\": ?\"(\w+)", output)
+        self.assertEqual(len(weights), 2)
+        self.assertEqual(*weights)
+        self.assertLessEqual({"run.mcap", "FRESCO_ORDERS.csv", "transitions.csv", "repaired.lcm", "small.lcm"}, self.files)
+
+    def test_exports(self):
+        self.follow("export.md", before="tools/fresco train --config ci --set schedule.episodes=50 --out runs/NAME\n")
+        self.assertLessEqual({"policy.onnx", "policy.h", "policy.csv"}, self.files)
+
+    def test_other_worlds(self):
+        few = " --set schedule.episodes=20 --set schedule.minimum_replay_size=100 --set run.optimum_limit_s=0 "
+        output = self.follow(
+            "worlds.md", ("--config cartpole  ", "--config cartpole --out runs/NAME" + few),
+            ("--config FIELD --policy runs/NAME", "--config ci --policy runs/fields"),
+            ("train --config city  ", "train --config city" + few), ("configs/city.png  ", "city.png  "),
+            ("episodes: 500", "episodes: 20 minimum_replay_size: 500"), ("episodes: 200 ", "episodes: 20 minimum_replay_size: 100 "),
+            before=f"tools/fresco train --config any_field --out runs/fields{few}\n")
+        self.assertRegex(output, r'"total_aoi": ?\d+')
+        self.assertIn("city.png", self.files)
+
+    def test_a_key(self):
+        output = self.follow(
+            "reliability.md", ("scp ", ": "), ("  # host 1", " --config ci --set schedule.episodes=50 &"),
+            ("fresco-actor --lcm-url", "fresco-actor --once --lcm-url"), ("  # host 2", "; wait $!"),
+            before="URL='udpm://239.255.76.67:7667?ttl=0'\n")
+        self.assertIn("this run (DQN)", output)
+
 
 class OtherCommands(unittest.TestCase):
-    """Commands that take long, or need a display or other hosts, are run by other tests; here they are checked."""
+    """Commands that take long, or need a display or other hosts, are not followed, and many of them are run by other tests.
+    Here they are checked."""
 
     def help_of(self, words):
         if words not in self.helps:
