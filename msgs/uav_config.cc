@@ -211,7 +211,7 @@ void CompleteScenario(proto::ExperimentConfig& config) {
 std::shared_ptr<const World> MakeUavWorld(const proto::ExperimentConfig& config) {
   const proto::Agent& agent = config.agent();
   const Scenario scenario = ToScenario(config.scenario());
-  const UavOptions options{{agent.safe_action_mask(), agent.coverage_mask()},
+  const UavOptions options{{agent.safe_action_mask(), agent.coverage_mask(), agent.idle_mask()},
                            {agent.sensor_geometry(), agent.has_set_network()}};
   if (config.scenario().random_sensors().per_episode()) {
     return std::make_shared<UavFields>(scenario, ToRanges(config.scenario(), scenario), options);

@@ -42,7 +42,7 @@ constexpr Sample kSamples[] = {
     {"fields",
      "scenario { random_sensors { per_episode: true minimum: 1 maximum: 5 } random_field { any_start: true "
      "any_stop: true coverage_radius_m { minimum: 50 maximum: 125 } weight { minimum: 0.5 maximum: 2 } } } "
-     "agent { set_network {} safe_action_mask: true coverage_mask: true }"},
+     "agent { set_network {} safe_action_mask: true coverage_mask: true idle_mask: true }"},
     {"cartpole", "cartpole {}"},
     {"acrobot", "acrobot {}"},
     // A world whose mask only its own code knows.

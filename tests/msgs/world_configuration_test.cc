@@ -90,7 +90,7 @@ TEST(Discount, IsThatOfTheWorldUnlessSaid) {
 }
 
 TEST(AgentOption, OfTheUavIsRefusedInOtherWorlds) {
-  for (const std::string option : {"safe_action_mask", "coverage_mask", "sensor_geometry"}) {
+  for (const std::string option : {"safe_action_mask", "coverage_mask", "idle_mask", "sensor_geometry"}) {
     EXPECT_EQ(RefusalOf("cartpole {} agent { " + option + ": true }"),
               "my.textproto: agent." + option +
                   ": true; allowed: false, since only the world scenario has this option and the world is "

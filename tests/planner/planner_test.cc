@@ -17,6 +17,7 @@
 #include "tests/worlds/test_scenarios.h"
 #include "worlds/uav/baselines.h"
 #include "worlds/uav/obstacle_map.h"
+#include "worlds/uav/uav_environment.h"
 
 namespace fresco {
 namespace {
@@ -59,6 +60,46 @@ double LeastAverageAoiOfAllSequences(const Scenario& scenario, std::vector<Actio
     }
   }
   return least;
+}
+
+// Every sequence of actions that the masks allow, from where the environment is.
+double LeastAverageAoiOfAllowedSequences(const UavWorld& world, const UavEnvironment& environment) {
+  if (environment.outcome() != Outcome::kFlying) {
+    return environment.outcome() == Outcome::kArrived ? 0 : std::numeric_limits<double>::infinity();
+  }
+  std::vector<uint8_t> mask(static_cast<size_t>(world.actions()));
+  environment.WriteMask(mask);
+  double least = std::numeric_limits<double>::infinity();
+  for (int action = 0; action < world.actions(); ++action) {
+    if (mask[static_cast<size_t>(action)] == 0) {
+      continue;
+    }
+    UavEnvironment next = environment;
+    next.Step(world.ActionAt(action));
+    double weighted_aoi = 0;
+    for (size_t n = 0; n < next.state().aoi.size(); ++n) {
+      weighted_aoi += world.theta()[n] * next.state().aoi[n];
+    }
+    least = std::min(least,
+                     weighted_aoi / world.scenario().slots + LeastAverageAoiOfAllowedSequences(world, next));
+  }
+  return least;
+}
+
+TEST(Masks, LeaveAnOptimalFlightAllowed) {
+  int compared = 0;
+  for (uint32_t index = 0; index < 400; ++index) {
+    const Scenario scenario = TinyScenario(index);
+    const UavWorld world(scenario, {{.safe_actions = true, .coverage = true, .idle = true}, {}});
+    if (std::pow(world.actions(), scenario.slots - 1) > 1e6) {
+      continue;
+    }
+    SCOPED_TRACE(index);
+    EXPECT_NEAR(1.0 / scenario.slots + LeastAverageAoiOfAllowedSequences(world, UavEnvironment(world)),
+                ExhaustiveSearch(scenario).LeastAverageAoi(), 1e-9);
+    ++compared;
+  }
+  EXPECT_GT(compared, 100);
 }
 
 TEST(ExhaustiveSearch, FindsWhatTheBestOfAllActionSequencesHas) {

@@ -51,7 +51,7 @@ TEST(Formulas, OfOneFieldAreWhatTheWorldComputes) {
     for (const NetworkInputOptions input :
          {NetworkInputOptions{false, false}, NetworkInputOptions{true, false},
           NetworkInputOptions{false, true}}) {
-      const UavOptions options{{index % 3 != 0, index % 5 != 0}, input};
+      const UavOptions options{{index % 3 != 0, index % 5 != 0, index % 7 < 4}, input};
       EXPECT_GT(Compare(UavWorld(scenario, options), 3), 0) << index;
     }
   }
@@ -72,10 +72,13 @@ TEST(Formulas, OfTheMaskKnowTheEnergyThatIsNeeded) {
 }
 
 TEST(Formulas, OfDrawnFieldsAreWhatTheWorldComputes) {
-  const UavFields fields(TableOne(), {{1, 5}, {0.5, 2}, {50, 125}, {50, 70}, true, true}, {{true, true}, {}});
+  const UavFields fields(TableOne(), {{1, 5}, {0.5, 2}, {50, 125}, {50, 70}, true, true},
+                         {{true, true, true}, {}});
   EXPECT_GT(Compare(fields, 150), 5000);
   const UavFields without_masks(TableOne(), {{2, 4}, {1, 1}, {50, 125}, {70, 70}, false, false}, {});
   EXPECT_GT(Compare(without_masks, 50), 1000);
+  const UavFields idle(TableOne(), {{1, 3}, {1, 1}, {50, 125}, {70, 70}, false, false}, {{.idle = true}, {}});
+  EXPECT_GT(Compare(idle, 50), 1000);
 }
 
 TEST(Formulas, OfCartPoleAndAcrobotAreWhatTheWorldsCompute) {

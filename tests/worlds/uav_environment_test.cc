@@ -173,6 +173,16 @@ TEST(UavEnvironment, MasksWhatIsUnsafeOrUncovered) {
   EXPECT_THAT(mask, ElementsAre(1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0));
 }
 
+TEST(UavEnvironment, MasksIdlingOnlyWhileASensorIsCovered) {
+  const UavWorld world(SmallScenario());
+  UavEnvironment environment(world);
+  std::vector<uint8_t> mask(15);
+  environment.WriteMask({.idle = true}, mask);  // sensor 1 is covered
+  EXPECT_THAT(mask, ElementsAre(0, 1, 1, 0, 1, 1, 0, 1, 1, 0, 1, 1, 0, 1, 1));
+  environment.WriteMask({.safe_actions = true, .coverage = true, .idle = true}, mask);
+  EXPECT_THAT(mask, ElementsAre(0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0));
+}
+
 TEST(UavEnvironment, MasksNothingOnceTheEpisodeIsOver) {
   const UavWorld world(SmallScenario());
   UavEnvironment environment(world);

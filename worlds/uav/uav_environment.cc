@@ -179,11 +179,17 @@ void UavEnvironment::WriteMask(MaskOptions options, std::span<uint8_t> mask) con
   if ((allowed[0] | allowed[1] | allowed[2] | allowed[3] | allowed[4]) == 0) {
     allowed.fill(1);  // no option, the stop is out of reach already, or the episode is over
   }
-  const uint8_t any_sensor = !options.coverage || outcome_ != Outcome::kFlying;
+  const bool is_over = outcome_ != Outcome::kFlying;
+  const uint8_t any_sensor = !options.coverage || is_over;
   const std::span<const uint8_t> coverage = world_->Coverage(state_.cell);
   const size_t schedules = coverage.size() + 1;
+  uint8_t covers_one = 0;
+  for (const uint8_t covered : coverage) {
+    covers_one |= covered;
+  }
+  const uint8_t idle = !options.idle || is_over || covers_one == 0;
   for (size_t move = 0; move < kMoves; ++move) {
-    mask[move * schedules] = allowed[move];
+    mask[move * schedules] = allowed[move] & idle;
   }
   for (size_t schedule = 1; schedule < schedules; ++schedule) {
     const uint8_t useful = any_sensor | coverage[schedule - 1];

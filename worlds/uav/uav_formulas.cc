@@ -35,13 +35,11 @@ Term AllowedMoves(const UavWorld& world, Term closer, Term possible, Formulas& f
   return Largest(allowed, AtMost(Sum(allowed), 0.0));  // if nothing is safe, everything is allowed
 }
 
-/// The mask of all actions. `useful`: which sensors may be scheduled.
-Term MaskOfActions(Term moves, Term useful, Formulas& formulas) {
+/// The mask of all actions. `schedules`: whether none and each sensor may be scheduled.
+Term MaskOfActions(Term moves, Term schedules, Formulas& formulas) {
   std::vector<Term> parts;
   for (int move = 0; move < kMoves; ++move) {
-    const Term allowed = Part(moves, move, 1);
-    parts.push_back(allowed);
-    parts.push_back(allowed * useful);
+    parts.push_back(Part(moves, move, 1) * schedules);
   }
   return formulas.Join(parts);
 }
@@ -49,7 +47,8 @@ Term MaskOfActions(Term moves, Term useful, Formulas& formulas) {
 /// The mask where everything that depends on the cell is in a table.
 Term MaskOfField(const UavWorld& world, Term cell, Formulas& formulas) {
   std::vector<double> moves;
-  std::vector<double> coverage;
+  const MaskOptions& options = world.mask_options();
+  std::vector<double> schedules;
   for (int index = 0; index < world.scenario().columns * world.scenario().rows; ++index) {
     const Cell here = {index % world.scenario().columns, index / world.scenario().columns};
     std::vector<double> possible;
@@ -60,13 +59,17 @@ Term MaskOfField(const UavWorld& world, Term cell, Formulas& formulas) {
       moves.push_back(world.MayFly(next) && world.DistanceToStop(next) < world.DistanceToStop(here) ? 1 : 0);
     }
     moves.insert(moves.end(), possible.begin(), possible.end());
-    for (const uint8_t covered : world.Coverage(here)) {
-      coverage.push_back(covered != 0 || !world.mask_options().coverage ? 1 : 0);
+    const std::span<const uint8_t> coverage = world.Coverage(here);
+    const bool covers_one =
+        std::any_of(coverage.begin(), coverage.end(), [](uint8_t covered) { return covered != 0; });
+    schedules.push_back(options.idle && covers_one ? 0 : 1);
+    for (const uint8_t covered : coverage) {
+      schedules.push_back(covered != 0 || !options.coverage ? 1 : 0);
     }
   }
   const Term of_cell = formulas.Row(std::move(moves), 8, cell);
   return MaskOfActions(AllowedMoves(world, Part(of_cell, 0, 4), Part(of_cell, 4, 4), formulas),
-                       formulas.Row(std::move(coverage), world.sensors(), cell), formulas);
+                       formulas.Row(std::move(schedules), world.sensors() + 1, cell), formulas);
 }
 
 /// Entries of an observation that are fields of the state in other units.
@@ -162,7 +165,8 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
                                    state(kTimeMarginField) / slots,
                                    state(kEnergyMarginField) / scenario.initial_energy_j,
                                    metres(radius_m)};
-  std::vector<Term> useful;
+  std::vector<Term> covers;
+  std::vector<Term> sensors;  // which of them may be scheduled
   const Term east_m = ToDouble(column) * scenario.cell_m;
   const Term north_m = ToDouble(row) * scenario.cell_m;
   for (size_t sensor = 0; sensor < layout.most; ++sensor) {
@@ -175,7 +179,8 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
                                      metres(distance_m), is_covered, state(kAoiField + sensor) / slots,
                                      ToSingle(ToDouble(weights[sensor]) / total_weight)});
     observation.push_back(Choose(is_absent, 0.0, item));
-    useful.push_back(largest.mask_options().coverage ? Choose(is_absent, 0.0, is_covered) : 1.0 - is_absent);
+    covers.push_back(Choose(is_absent, 0.0, is_covered));
+    sensors.push_back(largest.mask_options().coverage ? covers.back() : 1.0 - is_absent);
   }
 
   // By move: north, south, east, west.
@@ -184,7 +189,10 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
   const Term closer = AtMost(1.0, away);
   const Term room = formulas.Join({(scenario.rows - 1) - row, row, (scenario.columns - 1) - column, column});
   const Term moves = AllowedMoves(largest, closer, AtMost(1.0, room), formulas);
-  return {formulas.Join(observation), MaskOfActions(moves, formulas.Join(useful), formulas)};
+  const Term none =
+      largest.mask_options().idle ? ToSingle(AtMost(Sum(formulas.Join(covers)), 0.0)) : formulas.Single({1});
+  return {formulas.Join(observation),
+          MaskOfActions(moves, formulas.Join({none, formulas.Join(sensors)}), formulas)};
 }
 
 }  // namespace fresco

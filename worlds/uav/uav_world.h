@@ -58,6 +58,9 @@ struct MaskOptions {
   /// Forbid moves off the grid or over an obstacle, and moves after which the stop can't be reached.
   bool safe_actions = false;
   bool coverage = false;  ///< forbid scheduling sensors that the UAV does not cover now
+  /// Forbid scheduling no sensor while the UAV covers one. To schedule that one is never worse: its AoI
+  /// becomes 1, everything else stays the same.
+  bool idle = false;
 };
 
 /// How agents see the world and what they may do in it; the scenario is the same.
