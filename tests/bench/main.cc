@@ -8,10 +8,12 @@
 #include <optional>
 #include <thread>
 
+#include "core/clock.h"
 #include "core/command_line.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/installation.h"
+#include "core/live_line.h"
 #include "nn/arithmetic.h"
 #include "nn/arithmetic_option.h"
 #include "tests/bench/subjects.h"
@@ -53,8 +55,12 @@ BenchHead Head() {
 }
 
 Results Measure(const std::vector<Subject>& subjects, const std::vector<std::string>& names, double seconds) {
-  return MeasureRows(subjects, names, seconds,
-                     [](const std::string& measured) { spdlog::info("measuring {}", measured); });
+  TimeLeft time_left;
+  return MeasureRows(subjects, names, seconds, [&](const std::string& rows, size_t done, size_t all) {
+    const std::string left =
+        time_left.Report(static_cast<double>(done), static_cast<double>(all), MonotonicMicroseconds());
+    spdlog::info("{} of {}: measuring {}{}{}", done + 1, all, rows, left.empty() ? "" : "; ", left);
+  });
 }
 
 void Print(const BenchArguments& arguments, const Results& results) {

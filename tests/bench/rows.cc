@@ -75,17 +75,24 @@ std::vector<std::string> SelectRows(const std::vector<Subject>& subjects, const 
 }
 
 Results MeasureRows(const std::vector<Subject>& subjects, const std::vector<std::string>& names,
-                    double seconds, const std::function<void(const std::string&)>& progress) {
-  Results all;
-  for (const Subject& subject : subjects) {
+                    double seconds, const BenchProgress& progress) {
+  const auto wanted_of = [&](const Subject& subject) {
     std::vector<std::string> wanted;
     std::copy_if(subject.names.begin(), subject.names.end(), std::back_inserter(wanted),
                  [&](const std::string& name) { return Has(names, name); });
+    return wanted;
+  };
+  const auto measured = static_cast<size_t>(std::count_if(
+      subjects.begin(), subjects.end(), [&](const Subject& subject) { return !wanted_of(subject).empty(); }));
+  Results all;
+  size_t done = 0;
+  for (const Subject& subject : subjects) {
+    const std::vector<std::string> wanted = wanted_of(subject);
     if (wanted.empty()) {
       continue;
     }
     ThrowIfStopped();
-    progress(fmt::format("{}", fmt::join(wanted, ", ")));
+    progress(fmt::format("{}", fmt::join(wanted, ", ")), done++, measured);
     const Results results = subject.measure(seconds);
     FRESCO_CHECK(results.rows.size() + results.absent.size() == subject.names.size());
     std::copy_if(results.rows.begin(), results.rows.end(), std::back_inserter(all.rows),

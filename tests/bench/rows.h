@@ -59,10 +59,12 @@ struct BenchHead {
 /// none, or no name has one.
 std::vector<std::string> SelectRows(const std::vector<Subject>& subjects, const std::string& filter);
 
-/// Measures the rows with these names. Calls `progress` with the names of the subject's rows before each
-/// subject.
+/// Called before each subject: the names of its rows, how many subjects are done, how many are measured.
+using BenchProgress = std::function<void(const std::string& names, size_t done, size_t all)>;
+
+/// Measures the rows with these names.
 Results MeasureRows(const std::vector<Subject>& subjects, const std::vector<std::string>& names,
-                    double seconds, const std::function<void(const std::string&)>& progress);
+                    double seconds, const BenchProgress& progress);
 
 /// A table for people, with the head above it and the absent rows below.
 std::string BenchTable(const BenchHead& head, const Results& results);

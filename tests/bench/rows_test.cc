@@ -1,6 +1,7 @@
 // Rows: chosen, measured, printed and checked.
 #include "tests/bench/rows.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ std::vector<Subject> Subjects(std::vector<double>* seconds = nullptr) {
 }
 
 Results Measured(const std::vector<std::string>& names) {
-  return MeasureRows(Subjects(), names, 1, [](const std::string&) {});
+  return MeasureRows(Subjects(), names, 1, [](const std::string&, size_t, size_t) {});
 }
 
 BenchHead SomeHead() {
@@ -63,10 +64,12 @@ TEST(Rows, AreNamedIfTheFilterMatchesNone) {
 TEST(Rows, OfSubjectsThatAreNotAskedForAreNotMeasured) {
   std::vector<double> seconds;
   std::vector<std::string> progress;
-  const Results results = MeasureRows(Subjects(&seconds), {"slow"}, 0.25,
-                                      [&](const std::string& names) { progress.push_back(names); });
+  const Results results =
+      MeasureRows(Subjects(&seconds), {"slow"}, 0.25, [&](const std::string& rows, size_t done, size_t all) {
+        progress.push_back(fmt::format("{}, {} of {}", rows, done, all));
+      });
   EXPECT_THAT(seconds, ElementsAre(0.25));
-  EXPECT_THAT(progress, ElementsAre("slow"));
+  EXPECT_THAT(progress, ElementsAre("slow, 0 of 1"));
   ASSERT_EQ(results.rows.size(), 1u);
   EXPECT_EQ(results.rows[0].name, "slow");
   EXPECT_THAT(results.absent, IsEmpty());
