@@ -69,14 +69,11 @@ endfunction()
 
 # Builds every test program that carries the label unit, and no more than that.
 add_custom_target(unit_tests)
-# The same for the label decoders.
-add_custom_target(decoder_tests)
 
 # fresco_test(name LABEL label SOURCES ... LIBRARIES ...): one gtest program, one CTest entry. STARTS_FIRST: it takes
-# the longest, so CTest starts it before the others. DECODES: a unit test of a room that reads bytes from outside (packets,
-# files, other people's code); it also carries the label decoders, and CI runs it with sanitizers.
+# the longest, so CTest starts it before the others.
 function(fresco_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "STARTS_FIRST;DECODES" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "STARTS_FIRST" "LABEL;TIMEOUT" "SOURCES;LIBRARIES")
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
   endif()
@@ -94,12 +91,8 @@ function(fresco_test name)
   if(arg_LABEL STREQUAL "unit")
     add_dependencies(unit_tests ${name})
   endif()
-  if(arg_DECODES)
-    list(APPEND arg_LABEL decoders)
-    add_dependencies(decoder_tests ${name})
-  endif()
   add_test(NAME ${name} COMMAND ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABEL}" TIMEOUT ${arg_TIMEOUT})
+  set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
   if(arg_STARTS_FIRST)
     set_tests_properties(${name} PROPERTIES COST 100)
   endif()

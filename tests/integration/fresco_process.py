@@ -10,9 +10,9 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BIN = pathlib.Path(os.environ["FRESCO_BIN"])
-CI_CONFIG = ROOT / "tests" / "integration" / "few_updates.textproto"
-# Programs with a sanitizer are slow and need more memory: deadlines so many times longer then, and further arguments for
-# every soak.
+# Programs with a sanitizer are slow and need more memory: another configuration then, deadlines so many times longer,
+# and further arguments for every soak.
+CI_CONFIG = pathlib.Path(os.environ.get("FRESCO_CI_CONFIG", ROOT / "configs" / "ci.textproto"))
 PATIENCE = float(os.environ.get("FRESCO_PATIENCE", 1))
 SOAK_ARGUMENTS = os.environ.get("FRESCO_SOAK_ARGUMENTS", "").split()
 

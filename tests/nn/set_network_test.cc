@@ -175,7 +175,7 @@ TEST_P(SetNetworkTest, BackwardIsTheFiniteDifferenceOfTheLoss) {
   const std::vector<float> gradient = Gradient(batch_);
   constexpr double kStep = 1e-6;
   Doubles parameters = WideParameters();
-  const size_t stride = parameters.size() / 100 + 1;
+  const size_t stride = parameters.size() / 400 + 1;
   for (size_t i = 0; i < parameters.size(); i += stride) {
     const double value = parameters[i];
     parameters[i] = value + kStep;
