@@ -97,3 +97,11 @@ function(fresco_test name)
     set_tests_properties(${name} PROPERTIES COST 100)
   endif()
 endfunction()
+
+# fresco_optimise_with_sanitizer(sources...): sources of tests that take most of the tests' time with a sanitizer, such as
+# slow literal versions. They have the optimiser there, which other sources of tests have not.
+macro(fresco_optimise_with_sanitizer)
+  if(FRESCO_SANITIZE)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
+  endif()
+endmacro()
