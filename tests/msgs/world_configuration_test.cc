@@ -123,7 +123,7 @@ TEST(FieldsOfEpisodes, HaveTheRangesOfTheConfiguration) {
   const World& world = experiment.world();
   EXPECT_EQ(world.actions(), 5 * (1 + 4));
   EXPECT_EQ(world.longest_episode(), 69);
-  EXPECT_EQ(world.observation_size(), 7 + 4 * 7);
+  EXPECT_EQ(world.observation_size(), 12 + 4 * 12);
   EXPECT_TRUE(world.description().random);
   EXPECT_TRUE(HasFlights(experiment));
   EXPECT_EQ(Configured("scenario { random_sensors { per_episode: true count: 6 } }").world().actions(),
@@ -162,11 +162,11 @@ TEST(FieldsOfEpisodes, AreRefusedWithTheFieldThatIsWrong) {
 
 TEST(SetNetworkOption, DecidesTheNetwork) {
   const Experiment experiment = Configured("agent { set_network {} }");
-  // Seven inputs of the UAV, seven of each of three sensors.
-  EXPECT_EQ(experiment.network()->inputs(), 7 + 3 * 7);
+  // Twelve inputs of the UAV, twelve of each of three sensors.
+  EXPECT_EQ(experiment.network()->inputs(), 12 + 3 * 12);
   EXPECT_EQ(experiment.network()->outputs(), 20);
   EXPECT_EQ(experiment.network()->layer_sizes(),
-            (std::vector<int>{14, 64, 64, 0, 135, 128, 128, 5, 0, 192, 64, 5}));
+            (std::vector<int>{24, 64, 64, 0, 140, 128, 128, 5, 0, 192, 64, 5}));
   EXPECT_EQ(Configured("scenario { random_sensors { count: 9 } } agent { set_network {} }")
                 .network()
                 ->layer_sizes(),
@@ -174,7 +174,7 @@ TEST(SetNetworkOption, DecidesTheNetwork) {
   const Experiment other =
       Configured("", {"agent.set_network.encoder_layers=8", "agent.set_network.trunk_layers=9,10",
                       "agent.set_network.head_layers=11,12"});
-  EXPECT_EQ(other.network()->layer_sizes(), (std::vector<int>{14, 8, 0, 23, 9, 10, 5, 0, 18, 11, 12, 5}));
+  EXPECT_EQ(other.network()->layer_sizes(), (std::vector<int>{24, 8, 0, 28, 9, 10, 5, 0, 18, 11, 12, 5}));
   const Experiment again = Configured(other.Text());
   EXPECT_EQ(again.Text(), other.Text());
   EXPECT_EQ(again.hash(), other.hash());

@@ -66,14 +66,21 @@ TEST(NetworkInput, ShowsEverySensorFromHereWithSets) {
       ElementsAre(FloatEq(11.0f / 20), FloatEq(8.0f / 20), FloatEq(-1.0f / 20), FloatEq(11.0f / 20), 0.5f,
                   0.25f,
                   FloatEq(static_cast<float>(scenario.coverage_radius_m) / 500),  //
-                  1.0f, FloatEq(-0.15f), FloatEq(-0.05f), FloatEq(79.0569415f / 500), 1.0f, 0.1f, 0.25f, 1.0f,
-                  FloatEq(-0.5f), FloatEq(-0.2f), FloatEq(269.258240f / 500), 0.0f, 0.2f, 0.5f, 1.0f,
-                  FloatEq(0.35f), FloatEq(0.55f), FloatEq(325.960120f / 500), 0.0f, 1.0f, 0.25f));
+                  FloatEq(12.0f / 20), 1.0f, -1.0f, -1.0f, 1.0f,
+                  // After a move to the east, the first sensor is 103.08 m away.
+                  1.0f, FloatEq(-0.15f), FloatEq(-0.05f), FloatEq(79.0569415f / 500), 1.0f, 0.1f, 0.25f,  //
+                  0.0f, 0.0f, 0.0f, -1.0f, 0.0f,
+                  // The others are 10 cells west, 4 south and 7 east, 11 north. Five moves from there, as two
+                  // and three cells, still cover them.
+                  1.0f, FloatEq(-0.5f), FloatEq(-0.2f), FloatEq(269.258240f / 500), 0.0f, 0.2f, 0.5f,   //
+                  FloatEq(9.0f / 20), -1.0f, 1.0f, -1.0f, 1.0f,                                         //
+                  1.0f, FloatEq(0.35f), FloatEq(0.55f), FloatEq(325.960120f / 500), 0.0f, 1.0f, 0.25f,  //
+                  FloatEq(13.0f / 20), 1.0f, -1.0f, 1.0f, -1.0f));
   const UavWorld world(scenario, {.network_input = {.sets = true}});
   ASSERT_TRUE(world.description().sets);
-  EXPECT_EQ(world.description().sets->own_inputs, 7);
+  EXPECT_EQ(world.description().sets->own_inputs, 12);
   EXPECT_EQ(world.description().sets->items, 3);
-  EXPECT_EQ(world.description().sets->item_inputs, 7);
+  EXPECT_EQ(world.description().sets->item_inputs, 12);
   EXPECT_EQ(world.description().sets->groups, kMoves);
   EXPECT_FALSE(UavWorld(scenario).description().sets);
 }

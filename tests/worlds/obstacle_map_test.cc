@@ -17,6 +17,7 @@
 #include "worlds/uav/flight.h"
 #include "worlds/uav/map_input.h"
 #include "worlds/uav/uav_fields.h"
+#include "worlds/uav/ways.h"
 
 namespace fresco {
 namespace {
@@ -379,7 +380,48 @@ std::vector<Cell> CellsThatCover(const UavWorld& world, int sensor) {
   return cells;
 }
 
-// Without a map, an observation has 7 numbers of the UAV and 7 of each sensor; with one, five more each.
+TEST(OpenWays, AreThoseOfALiteralVersion) {
+  RandomStream stream(3, RandomPurpose::kTest, 0, 0);
+  for (int trial = 0; trial < 300; ++trial) {
+    Scenario scenario = SquareField(7, 30, {0, 0}, {0, 0}, {});
+    scenario.columns = 1 + static_cast<int>(stream.NextBelow(9));
+    scenario.rows = 1 + static_cast<int>(stream.NextBelow(9));
+    const auto coordinate = [&](int cells) { return (cells * stream.NextUniform() - 0.5) * scenario.cell_m; };
+    // Some sensors stand where rounding decides; some radii cover nothing, some everything.
+    const bool whole = trial % 3 == 0;
+    const auto placed = [&](int cells) {
+      return whole ? static_cast<double>(stream.NextBelow(static_cast<uint32_t>(cells))) * scenario.cell_m
+                   : coordinate(cells);
+    };
+    const Sensor sensor = {placed(scenario.columns), placed(scenario.rows), 1};
+    const double radius_m =
+        whole ? stream.NextBelow(6) * scenario.cell_m : stream.NextUniform() * stream.NextUniform() * 400;
+    std::vector<Cell> covering;
+    for (int row = 0; row < scenario.rows; ++row) {
+      for (int column = 0; column < scenario.columns; ++column) {
+        if (IsWithin(radius_m, HorizontalDistance({column, row}, scenario.cell_m, sensor))) {
+          covering.push_back({column, row});
+        }
+      }
+    }
+    const Cell stop = {static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario.columns))),
+                       static_cast<int>(stream.NextBelow(static_cast<uint32_t>(scenario.rows)))};
+    const int longer_side = std::max(scenario.columns, scenario.rows);
+    std::vector<float> input(kWayInputs);
+    for (int row = 0; row < scenario.rows; ++row) {
+      for (int column = 0; column < scenario.columns; ++column) {
+        const Cell cell = {column, row};
+        WriteWays(OpenWaysToStop(scenario.columns, scenario.rows, cell, stop), longer_side, input);
+        ASSERT_EQ(input, WayTo(scenario, cell, {stop}));
+        WriteWays(OpenWaysToSensor(scenario.columns, scenario.rows, scenario.cell_m, cell, sensor, radius_m),
+                  longer_side, input);
+        ASSERT_EQ(input, WayTo(scenario, cell, covering)) << trial;
+      }
+    }
+  }
+}
+
+// An observation has 12 numbers of the UAV and 12 of each sensor; the last five of them are those of a way.
 TEST(UavFieldsWithAMap, ShowTheNetworkTheWaysRoundTheObstacles) {
   const UavFields fields = TownFields();
   EXPECT_EQ(fields.observation_size(), 12 + 4 * 12);
@@ -414,27 +456,30 @@ TEST(UavFieldsWithAMap, ShowTheNetworkTheWaysRoundTheObstacles) {
   }
 }
 
-TEST(NetworkInputWithAMap, HasTheWaysBehindTheInputsOfAnOpenGrid) {
+TEST(NetworkInputWithAMap, HasWaysRoundTheObstacles) {
   Scenario scenario = TownScenario();
   scenario.sensors.push_back({125, 0, 2});
   const UavWorld world(scenario, {{}, {.sensor_geometry = false, .sets = true}});
   scenario.map = nullptr;
   const UavWorld open(scenario, {{}, {.sensor_geometry = false, .sets = true}});
-  EXPECT_EQ(open.observation_size(), 7 + 2 * 7);
+  EXPECT_EQ(open.observation_size(), 12 + 2 * 12);
   EXPECT_EQ(world.observation_size(), 12 + 2 * 12);
   const std::vector<float> state = {3, 2, 8, 500, 7, 9};
   std::vector<float> input(static_cast<size_t>(world.observation_size()));
   std::vector<float> open_input(static_cast<size_t>(open.observation_size()));
   world.Observe(state, input);
   open.Observe(state, open_input);
-  const auto expect_way = [&](size_t first, const std::vector<Cell>& to) {
-    const auto begin = input.begin() + static_cast<int64_t>(first);
-    EXPECT_EQ(std::vector<float>(begin, begin + 5), WayTo(world.scenario(), {3, 2}, to));
-    input.erase(begin, begin + 5);
+  const auto expect_way = [&](size_t first, const std::vector<Cell>& to, const std::vector<Cell>& open_to) {
+    for (const auto& [of_world, numbers, cells] :
+         {std::tuple(&world.scenario(), &input, &to), std::tuple(&open.scenario(), &open_input, &open_to)}) {
+      const auto begin = numbers->begin() + static_cast<int64_t>(first);
+      EXPECT_EQ(std::vector<float>(begin, begin + 5), WayTo(*of_world, {3, 2}, *cells));
+      numbers->erase(begin, begin + 5);
+    }
   };
-  expect_way(31, CellsThatCover(world, 1));
-  expect_way(19, CellsThatCover(world, 0));
-  expect_way(7, {{5, 5}});
+  expect_way(31, CellsThatCover(world, 1), CellsThatCover(open, 1));
+  expect_way(19, CellsThatCover(world, 0), CellsThatCover(open, 0));
+  expect_way(7, {{5, 5}}, {{5, 5}});
   EXPECT_EQ(input[11], 0);       // the first sensor is hidden,
   EXPECT_EQ(open_input[11], 0);  // and too far away
   EXPECT_EQ(input, open_input);

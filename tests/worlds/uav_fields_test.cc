@@ -156,27 +156,12 @@ TEST(UavFields, AreSeenRelativeToTheUav) {
   std::vector<float> seen(static_cast<size_t>(fields.observation_size()));
   fields.Observe(state, seen);
   // The UAV is over (250 m, 100 m), so the sensor is 60 m east, 60 m south; the longer side is 500 m.
-  const std::vector<float> expected = {0.5f,
-                                       0.2f,
-                                       0,
-                                       0.75f,
-                                       0.5f,
-                                       0.25f,
-                                       0.2f,
-                                       1,
-                                       0.12f,
-                                       -0.12f,
-                                       static_cast<float>(60 * std::sqrt(2.0) / 500),
-                                       1,
-                                       0.1f,
-                                       1,
-                                       0,
-                                       0,
-                                       0,
-                                       0,
-                                       0,
-                                       0,
-                                       0};
+  const auto distance = static_cast<float>(60 * std::sqrt(2.0) / 500);
+  std::vector<float> expected = {0.5f, 0.2f, 0, 0.75f, 0.5f, 0.25f, 0.2f, 0.75f, 1, -1, -1, -1};
+  expected.insert(expected.end(), {1, 0.12f, -0.12f, distance, 1, 0.1f, 1});
+  // The radius is 100 m. After a move to the north or the west the sensor is 104 m away, otherwise 69 m.
+  expected.insert(expected.end(), {0, -1, 0, 0, -1});
+  expected.resize(expected.size() + 12);  // a sensor that the field does not have
   ASSERT_EQ(seen.size(), expected.size());
   for (size_t i = 0; i < seen.size(); ++i) {
     EXPECT_NEAR(seen[i], expected[i], 1e-6) << i;

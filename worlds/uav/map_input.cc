@@ -58,41 +58,32 @@ MapInput::MapInput(const ObstacleMap& map, double cell_m, double largest_radius_
 MapInput::Rows MapInput::RowsAround(Cell cell) const {
   Rows rows;
   rows[0] = map_->DistancesTo(cell).data();
-  for (size_t move = 0; move + 1 < kInputs; ++move) {
+  for (size_t move = 0; move + 1 < kWayInputs; ++move) {
     const Cell next = {cell.column + kMoveSteps[move].column, cell.row + kMoveSteps[move].row};
     rows[move + 1] = map_->MayFly(next) ? map_->DistancesTo(next).data() : rows[0];
   }
   return rows;
 }
 
-void MapInput::Write(std::array<int16_t, kInputs> distances, std::span<float> input) const {
-  const int side = std::max(map_->columns(), map_->rows());
-  input[0] = static_cast<float>(std::min<int>(distances[0], 2 * side)) / static_cast<float>(side);
-  for (size_t i = 1; i < kInputs; ++i) {
-    input[i] = static_cast<float>(distances[0] - distances[i]);
-  }
-}
-
-void MapInput::WriteWayToStop(Cell cell, Cell stop, std::span<float> input) const {
+Ways MapInput::WaysToStop(Cell cell, Cell stop) const {
   const auto to = static_cast<size_t>(IndexOf(stop));
   const Rows rows = RowsAround(cell);
-  Write({rows[0][to], rows[1][to], rows[2][to], rows[3][to], rows[4][to]}, input);
+  return {rows[0][to], rows[1][to], rows[2][to], rows[3][to], rows[4][to]};
 }
 
-void MapInput::WriteWayToSensor(Cell cell, const Sensor& sensor, double radius_m,
-                                std::span<float> input) const {
+Ways MapInput::WaysToSensor(Cell cell, const Sensor& sensor, double radius_m) const {
   const double largest_square = SquareInCells(radius_m, cell_m_);
   const auto place = static_cast<size_t>(IndexOf(CellOf(sensor, cell_m_, map_->columns(), map_->rows())));
   const Rows rows = RowsAround(cell);
-  std::array<int16_t, kInputs> least;
+  Ways least;
   least.fill(ObstacleMap::kCutOff);
   for (uint32_t i = first_[place]; i < first_[place + 1] && squares_[i] <= largest_square; ++i) {
     const auto to = static_cast<size_t>(seen_from_[i]);
-    for (size_t row = 0; row < kInputs; ++row) {
+    for (size_t row = 0; row < kWayInputs; ++row) {
       least[row] = std::min(least[row], rows[row][to]);
     }
   }
-  Write(least, input);
+  return least;
 }
 
 }  // namespace fresco

@@ -1,24 +1,18 @@
-// What a network for sets sees of a map, besides what it sees of an open grid: lengths of ways round the
-// obstacles and which moves shorten them. So it does not have to learn the map by heart. Immutable after
-// construction, so any number of threads may share one.
+// The ways (ways.h) round the obstacles of a map. So a network for sets does not have to learn the map by
+// heart. Immutable after construction, so any number of threads may share one.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "worlds/uav/obstacle_map.h"
+#include "worlds/uav/ways.h"
 
 namespace fresco {
 
-/// A way has two kinds of input: its length in moves, divided by S, the larger number of columns and rows (at
-/// most 2, also if there is none); and for each of north, south, east and west by how many moves it is
-/// shorter after this move: 1, 0 or -1 (0 also if the move is not possible).
 class MapInput {
  public:
-  static constexpr size_t kInputs = 5;
-
   /// `map` must outlive the object. No radius is larger than `largest_radius_m`. Throws UsageError if so
   /// many pairs of cells hear each other at this radius that they take too much memory.
   MapInput(const ObstacleMap& map, double cell_m, double largest_radius_m);
@@ -30,17 +24,17 @@ class MapInput {
                                 squares_.size() * sizeof(squares_[0]));
   }
 
-  /// Writes the kInputs of the way from `cell` to the stop.
-  void WriteWayToStop(Cell cell, Cell stop, std::span<float> input) const;
-  /// Writes the kInputs of the way from `cell` to the nearest cell that covers a sensor with this radius. The
-  /// sensor counts as one in the centre of the cell in which it stands (random sensors do stand there).
-  void WriteWayToSensor(Cell cell, const Sensor& sensor, double radius_m, std::span<float> input) const;
+  /// The ways from `cell`, over which the UAV may fly, to the stop.
+  Ways WaysToStop(Cell cell, Cell stop) const;
+  /// The ways from `cell` to the nearest cell that covers a sensor with this radius. The sensor counts as one
+  /// in the centre of the cell in which it stands (random sensors do stand there).
+  Ways WaysToSensor(Cell cell, const Sensor& sensor, double radius_m) const;
 
  private:
-  using Rows = std::array<const int16_t*, kInputs>;  // distances to: the cell, and those after the four moves
+  using Rows =
+      std::array<const int16_t*, kWayInputs>;  // distances to: the cell, and those after the four moves
 
   Rows RowsAround(Cell cell) const;
-  void Write(std::array<int16_t, kInputs> distances, std::span<float> input) const;
   int IndexOf(Cell cell) const { return cell.row * map_->columns() + cell.column; }
 
   const ObstacleMap* map_;

@@ -13,8 +13,9 @@ float Share(int position, int cells) {
   return cells > 1 ? static_cast<float>(position) / static_cast<float>(cells - 1) : 0.0f;
 }
 
-constexpr int kOwnInputs = 7;     // of an observation for sets
-constexpr int kSensorInputs = 7;  // of each sensor
+// Of an observation for sets, each with a way.
+constexpr int kOwnInputs = 7 + kWayInputs;
+constexpr int kSensorInputs = 7 + kWayInputs;
 
 /// The sum of the sensors' weights. It is a sum of whole numbers, so their order changes no bit.
 double TotalWeight(std::span<const Sensor> sensors) {
@@ -35,20 +36,20 @@ float ScaledDistance(const Scenario& scenario, Cell cell, const Sensor& sensor) 
   return static_cast<float>(HorizontalDistance(cell, scenario.cell_m, sensor) / Side(scenario));
 }
 
-/// The length of the way to the sensor, as MapInput has it.
+/// The length of the way to the sensor, as WriteWays has it.
 float WayTo(const MapInput& map_input, Cell cell, const Scenario& scenario, const Sensor& sensor) {
-  std::array<float, MapInput::kInputs> way{};
+  std::array<float, kWayInputs> way{};
   if (scenario.map->MayFly(cell)) {
-    map_input.WriteWayToSensor(cell, sensor, scenario.coverage_radius_m, way);
+    WriteWays(map_input.WaysToSensor(cell, sensor, scenario.coverage_radius_m),
+              std::max(scenario.columns, scenario.rows), way);
   }
   return way[0];
 }
 
 }  // namespace
 
-ObservationSets SetsOf(int sensors, bool has_map) {
-  const int of_map = has_map ? static_cast<int>(MapInput::kInputs) : 0;
-  return {kOwnInputs + of_map, sensors, kSensorInputs + of_map, kMoves};
+ObservationSets SetsOf(int sensors) {
+  return {kOwnInputs, sensors, kSensorInputs, kMoves};
 }
 
 void WriteSets(const ObservedField& field, std::span<const float> state, std::span<float> input) {
@@ -68,13 +69,12 @@ void WriteSets(const ObservedField& field, std::span<const float> state, std::sp
   *next++ = state[kTimeMarginField] / slots;
   *next++ = state[kEnergyMarginField] / static_cast<float>(field.initial_energy_j);
   *next++ = metres(field.coverage_radius_m);
-  const auto write_map_input = [&](auto write) {
-    if (field.map_input != nullptr) {
-      write(std::span<float>(next, MapInput::kInputs));
-      next += MapInput::kInputs;
-    }
+  const auto write_ways = [&](const Ways& ways) {
+    WriteWays(ways, std::max(field.columns, field.rows), std::span<float>(next, kWayInputs));
+    next += kWayInputs;
   };
-  write_map_input([&](std::span<float> way) { field.map_input->WriteWayToStop(cell, field.stop, way); });
+  write_ways(field.map_input != nullptr ? field.map_input->WaysToStop(cell, field.stop)
+                                        : OpenWaysToStop(field.columns, field.rows, cell, field.stop));
   for (size_t i = 0; i < field.sensors.size(); ++i) {
     const Sensor& sensor = field.sensors[i];
     const double distance_m = HorizontalDistance(cell, field.cell_m, sensor);
@@ -87,9 +87,10 @@ void WriteSets(const ObservedField& field, std::span<const float> state, std::sp
     *next++ = is_covered ? 1 : 0;
     *next++ = state[kAoiField + i] / slots;
     *next++ = static_cast<float>(sensor.weight / total_weight);
-    write_map_input([&](std::span<float> way) {
-      field.map_input->WriteWayToSensor(cell, sensor, field.coverage_radius_m, way);
-    });
+    write_ways(field.map_input != nullptr
+                   ? field.map_input->WaysToSensor(cell, sensor, field.coverage_radius_m)
+                   : OpenWaysToSensor(field.columns, field.rows, field.cell_m, cell, sensor,
+                                      field.coverage_radius_m));
   }
   std::fill(next, input.end(), 0.0f);
 }
@@ -118,9 +119,9 @@ NetworkInput::NetworkInput(const UavWorld& world, NetworkInputOptions options)
   }
 }
 
-int NetworkInput::Size(int sensors, NetworkInputOptions options, bool has_map) {
+int NetworkInput::Size(int sensors, NetworkInputOptions options) {
   if (options.sets) {
-    const ObservationSets sets = SetsOf(sensors, has_map);
+    const ObservationSets sets = SetsOf(sensors);
     return sets.own_inputs + sensors * sets.item_inputs;
   }
   return sensors + 4 + (options.sensor_geometry ? 2 * sensors : 0);
@@ -128,8 +129,7 @@ int NetworkInput::Size(int sensors, NetworkInputOptions options, bool has_map) {
 
 void NetworkInput::Write(std::span<const float> state, std::span<float> input) const {
   const auto sensors = static_cast<size_t>(world_->sensors());
-  FRESCO_CHECK(input.size() ==
-               static_cast<size_t>(Size(world_->sensors(), options_, world_->map() != nullptr)));
+  FRESCO_CHECK(input.size() == static_cast<size_t>(Size(world_->sensors(), options_)));
   FRESCO_CHECK(state.size() == kAoiField + sensors);
   const Scenario& scenario = world_->scenario();
   if (options_.sets) {

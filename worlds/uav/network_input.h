@@ -8,6 +8,7 @@
 
 #include "worlds/uav/map_input.h"
 #include "worlds/uav/scenario.h"
+#include "worlds/uav/ways.h"
 #include "worlds/world.h"
 
 namespace fresco {
@@ -45,15 +46,15 @@ inline constexpr int kAoiInput = 5;
 inline constexpr double kPartsOfWeight{uint64_t{1} << 32};
 
 /// What a world states about an observation for agent.set_network with at most so many sensors.
-ObservationSets SetsOf(int sensors, bool has_map);
+ObservationSets SetsOf(int sensors);
 
 /// Writes an observation for agent.set_network. First the UAV's own numbers: column, row, the way to the stop
 /// (columns, rows), phi / T, Delta / E_max, R. Then for each sensor: 1, the way to it (east, north), its
 /// distance, 1 if it is covered or else 0, delta_n / T and theta_n. Lengths are divided by the grid's longer
 /// side. `state` begins with the fields of a UavWorld (uav_world.h); entries behind those of the sensors are
-/// 0, as for sensors that the field does not have. The order of the sensors changes no bit of an entry. With
-/// a map, MapInput's way to the stop follows the UAV's own numbers, and its way to the sensor those of each
-/// sensor.
+/// 0, as for sensors that the field does not have. The order of the sensors changes no bit of an entry.
+/// Behind the UAV's own numbers come the kWayInputs (ways.h) of the way to the stop, and behind those of each
+/// sensor those of the way to the nearest cell that covers it: round the obstacles if there is a map.
 void WriteSets(const ObservedField& field, std::span<const float> state, std::span<float> input);
 
 /// With `sets`, the input is that of WriteSets.
@@ -61,15 +62,15 @@ void WriteSets(const ObservedField& field, std::span<const float> state, std::sp
 /// Otherwise the entries of the input are column / (columns - 1), row / (rows - 1), delta_n / T for each of
 /// the N sensors, phi / T and Delta / E_max. With sensor_geometry, there follow N entries of 1 or 0 (sensor n
 /// is covered or not) and N distances to the sensors, divided by the grid's longer side (with a
-/// map: the moves to the nearest cell that covers it, divided by S, at most 2). If the grid has one column
-/// (or row), that entry is 0.
+/// map: the moves to the nearest cell that covers it, divided by the longer side in cells, at most 2). If the
+/// grid has one column (or row), that entry is 0.
 class NetworkInput {
  public:
   /// `world` must outlive the object.
   NetworkInput(const UavWorld& world, NetworkInputOptions options);
 
-  /// The number of entries for so many sensors, with a map or without one.
-  static int Size(int sensors, NetworkInputOptions options, bool has_map = false);
+  /// The number of entries for so many sensors.
+  static int Size(int sensors, NetworkInputOptions options);
   /// The memory of the tables, bytes.
   int64_t bytes() const {
     return static_cast<int64_t>(geometry_.size() * sizeof(geometry_[0])) +

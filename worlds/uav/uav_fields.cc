@@ -78,9 +78,8 @@ WorldDescription DescribeFields(const Scenario& common, const FieldRanges& range
     description.state.push_back({fmt::format("sensor_{}_weight", sensor), ""});
   }
   description.preferences.resize(description.state.size(), Preference::kOnlyEqual);
-  description.sets = SetsOf(ranges.sensors.maximum, common.map != nullptr);
-  description.observation_size =
-      NetworkInput::Size(ranges.sensors.maximum, {.sets = true}, common.map != nullptr);
+  description.sets = SetsOf(ranges.sensors.maximum);
+  description.observation_size = NetworkInput::Size(ranges.sensors.maximum, {.sets = true});
   return description;
 }
 

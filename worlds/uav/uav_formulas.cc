@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "worlds/uav/obstacle_map.h"
+#include "worlds/uav/ways.h"
 
 namespace fresco {
 namespace {
@@ -131,6 +133,86 @@ Term ObservationOfField(const UavWorld& world, Term cell, Formulas& formulas) {
   return formulas.Join(parts);
 }
 
+Term Magnitude(Term a) {
+  return Largest(a, -a);
+}
+
+/// The largest entry.
+Term LargestEntry(Term a, int size) {
+  while (size > 1) {
+    const int half = (size + 1) / 2;
+    a = Largest(Part(a, 0, half), Part(a, size - half, half));
+    size = half;
+  }
+  return a;
+}
+
+/// WriteWays (ways.h), with the length from the cell and then from the cells after the four moves.
+Term InputsOfWays(Term lengths, int longer_side, Formulas& formulas) {
+  const Term length = Part(lengths, 0, 1);
+  const Term at_most_two_sides = -Largest(-length, -2.0 * longer_side);
+  return formulas.Join({at_most_two_sides / longer_side, length - Part(lengths, 1, 4)});
+}
+
+/// The ways over an open grid.
+class OpenWays {
+ public:
+  OpenWays(const Scenario& scenario, Term column, Term row, Formulas& formulas)
+      : scenario_(&scenario), formulas_(&formulas) {
+    const auto after_moves = [&](Term position, std::vector<double> steps, int last) {
+      const Term not_below_zero = Largest(position + formulas.Single(std::move(steps)), 0.0);
+      return last - Largest(last - not_below_zero, 0.0);
+    };
+    columns_ = after_moves(column, {0, 0, 0, 1, -1}, scenario.columns - 1);
+    rows_ = after_moves(row, {0, 1, -1, 0, 0}, scenario.rows - 1);
+    std::vector<double> all_columns;
+    std::vector<double> all_rows;
+    for (int index = 0; index < CellCount(); ++index) {
+      all_columns.push_back(index % scenario.columns);
+      all_rows.push_back(index / scenario.columns);
+    }
+    const Term cell_columns = formulas.Single(std::move(all_columns));
+    const Term cell_rows = formulas.Single(std::move(all_rows));
+    cells_east_m_ = ToDouble(cell_columns) * scenario.cell_m;
+    cells_north_m_ = ToDouble(cell_rows) * scenario.cell_m;
+    for (int i = 0; i < static_cast<int>(kWayInputs); ++i) {
+      moves_.push_back(Magnitude(cell_columns - Part(columns_, i, 1)) +
+                       Magnitude(cell_rows - Part(rows_, i, 1)));
+    }
+  }
+
+  Term ToStop(Term stop_column, Term stop_row) const {
+    return Inputs(Magnitude(columns_ - stop_column) + Magnitude(rows_ - stop_row));
+  }
+
+  /// `reach_m`: the coverage radius with the tolerance of IsWithin.
+  Term ToSensor(Term x_m, Term y_m, Term reach_m) const {
+    const Term east_m = cells_east_m_ - x_m;
+    const Term north_m = cells_north_m_ - y_m;
+    const Term covers = ToSingle(AtMost(SquareRoot(east_m * east_m + north_m * north_m), reach_m));
+    std::vector<Term> lengths;
+    for (const Term moves : moves_) {
+      lengths.push_back(
+          -LargestEntry(Choose(1.0 - covers, -1.0 * ObstacleMap::kCutOff, -moves), CellCount()));
+    }
+    return Inputs(formulas_->Join(lengths));
+  }
+
+ private:
+  int CellCount() const { return scenario_->columns * scenario_->rows; }
+  Term Inputs(Term lengths) const {
+    return InputsOfWays(lengths, std::max(scenario_->columns, scenario_->rows), *formulas_);
+  }
+
+  const Scenario* scenario_;
+  Formulas* formulas_;
+  Term columns_;  // [5]: of the UAV, and after each move
+  Term rows_;
+  Term cells_east_m_;  // of every cell
+  Term cells_north_m_;
+  std::vector<Term> moves_;  // [5], from there to every cell
+};
+
 }  // namespace
 
 StateFormulas FormulasOfField(const UavWorld& world, Formulas& formulas) {
@@ -152,6 +234,8 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
   const auto cells = [&](Term count) { return ToSingle(ToDouble(count) / longer_side); };
   const auto metres = [&](Term length_m) { return ToSingle(length_m / (longer_side * scenario.cell_m)); };
 
+  const OpenWays ways(scenario, column, row, formulas);
+
   std::vector<Term> weights;
   for (size_t sensor = 0; sensor < layout.most; ++sensor) {
     weights.push_back(state(layout.sensor(sensor) + 2));
@@ -164,7 +248,8 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
                                    cells(stop_row - row),
                                    state(kTimeMarginField) / slots,
                                    state(kEnergyMarginField) / scenario.initial_energy_j,
-                                   metres(radius_m)};
+                                   metres(radius_m),
+                                   ways.ToStop(stop_column, stop_row)};
   std::vector<Term> covers;
   std::vector<Term> sensors;  // which of them may be scheduled
   const Term east_m = ToDouble(column) * scenario.cell_m;
@@ -174,10 +259,12 @@ StateFormulas FormulasOfFields(const UavWorld& largest, const UavFieldsLayout& l
     const Term y_m = ToDouble(state(layout.sensor(sensor) + 1));
     const Term is_absent = AtMost(weights[sensor], 0.0);
     const Term distance_m = SquareRoot((east_m - x_m) * (east_m - x_m) + (north_m - y_m) * (north_m - y_m));
-    const Term is_covered = ToSingle(AtMost(distance_m, radius_m * kRadiusLeeway));  // IsWithin
-    const Term item = formulas.Join({formulas.Single({1}), metres(x_m - east_m), metres(y_m - north_m),
-                                     metres(distance_m), is_covered, state(kAoiField + sensor) / slots,
-                                     ToSingle(ToDouble(weights[sensor]) / total_weight)});
+    const Term reach_m = radius_m * kRadiusLeeway;  // IsWithin
+    const Term is_covered = ToSingle(AtMost(distance_m, reach_m));
+    const Term item =
+        formulas.Join({formulas.Single({1}), metres(x_m - east_m), metres(y_m - north_m), metres(distance_m),
+                       is_covered, state(kAoiField + sensor) / slots,
+                       ToSingle(ToDouble(weights[sensor]) / total_weight), ways.ToSensor(x_m, y_m, reach_m)});
     observation.push_back(Choose(is_absent, 0.0, item));
     covers.push_back(Choose(is_absent, 0.0, is_covered));
     sensors.push_back(largest.mask_options().coverage ? covers.back() : 1.0 - is_absent);

@@ -173,8 +173,7 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.name = "uav";
   description.state = StateFields(sensors);
   description.actions = ActionNames(sensors);
-  description.observation_size =
-      NetworkInput::Size(static_cast<int>(sensors), options.network_input, scenario.map != nullptr);
+  description.observation_size = NetworkInput::Size(static_cast<int>(sensors), options.network_input);
   description.longest_episode = scenario.slots - 1;
   description.random = false;
   description.chance = false;
@@ -186,7 +185,7 @@ WorldDescription Describe(const Scenario& scenario, const UavOptions& options) {
   description.preferences[kEnergyMarginField] = Preference::kMore;
   std::fill_n(description.preferences.begin() + kAoiField, sensors, Preference::kLess);
   if (options.network_input.sets) {
-    description.sets = SetsOf(static_cast<int>(sensors), scenario.map != nullptr);
+    description.sets = SetsOf(static_cast<int>(sensors));
   }
   return description;
 }
