@@ -65,7 +65,7 @@ Results UpdateBesideRoof(const std::string& name, std::shared_ptr<const Network>
 
 /// The UAV's network for sets, with ten sensors.
 Results UpdateOfSets(double seconds) {
-  const SetShape shape{6, 10, 7, 5, {64, 64}, {128, 128}, {64}};
+  const SetShape shape{12, 10, 12, 5, {64, 64}, {128, 128}, {64}};
   return UpdateBesideRoof("update_sets", std::make_shared<SetNetwork>(shape), OptionsWith(200, false),
                           ProductsOfUpdate(shape, 200), seconds);
 }
