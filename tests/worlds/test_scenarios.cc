@@ -79,12 +79,12 @@ Scenario RandomScenario(uint32_t index) {
 }
 
 void AddRandomMap(Scenario* scenario, RandomStream* stream) {
-  constexpr char kKinds[] = "......NNRRBBS";
+  constexpr char kCellKinds[] = "......NNRRBBS";
   do {
     std::vector<std::string> text(static_cast<size_t>(scenario->rows));
     for (std::string& row : text) {
       for (int column = 0; column < scenario->columns; ++column) {
-        row.push_back(kKinds[Between(stream, 0, 12)]);
+        row.push_back(kCellKinds[Between(stream, 0, 12)]);
       }
     }
     for (const Cell cell : {scenario->start, scenario->stop}) {
